@@ -1,0 +1,112 @@
+"""Rays and solids as JSON objects, both ways.
+
+Reading refuses every malformed object with `Refused`, whose path leads to the field:
+`solid.of[1].radius`. Reals are spelled as `cases.formats` says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import fields
+from typing import Any
+
+from cases.formats import BINARY64, Format, Spelling, parse, spell
+from cases.model import SOLIDS, Ray, Refused, Solid, real, type_of
+
+Json = dict[str, Any]
+DEEPEST = 200
+VECTORS = {"origin", "direction", "point", "normal", "center", "p", "q"}
+
+
+def write_ray(ray: Ray, spelling: Spelling = "decimal", fmt: Format = BINARY64) -> Json:
+    """Return the ray as a JSON object."""
+    return {name: [spell(x, spelling, fmt) for x in getattr(ray, name)] for name in Ray.__slots__}
+
+
+def write_solid(solid: Solid, spelling: Spelling = "decimal", fmt: Format = BINARY64) -> Json:
+    """Return the solid as a JSON object, fields in the order of its declaration."""
+    form: Json = {"type": type_of(solid)}
+    for field in fields(solid):
+        value = getattr(solid, field.name)
+        if field.name == "of":
+            form["of"] = [write_solid(part, spelling, fmt) for part in value]
+        elif field.name in VECTORS:
+            form[field.name] = [spell(x, spelling, fmt) for x in value]
+        else:
+            form[field.name] = spell(value, spelling, fmt)
+    return form
+
+
+def read_ray(
+    form: object, path: str = "ray", spelling: Spelling = "decimal", fmt: Format = BINARY64
+) -> Ray:
+    """Return the ray that a JSON object describes, or refuse it."""
+    read = _reader(spelling, fmt)
+    values = _fields(form, path, Ray, set())
+    try:
+        return Ray(**{name: read(name, value) for name, value in values.items()})
+    except Refused as refusal:
+        raise refusal.under(path) from None
+
+
+def read_solid(
+    form: object, path: str = "solid", spelling: Spelling = "decimal", fmt: Format = BINARY64
+) -> Solid:
+    """Return the solid that a JSON object describes, or refuse it."""
+    if path.count(".of[") > DEEPEST:
+        raise Refused(path, f"is nested more than {DEEPEST} deep")
+    if not isinstance(form, Mapping):
+        raise Refused(path, f"is not an object: {form!r:.40}")
+    kind = form.get("type")
+    if not isinstance(kind, str) or kind not in SOLIDS:
+        raise Refused(f"{path}.type", f"is not one of {', '.join(SOLIDS)}: {kind!r:.40}")
+    read = _reader(spelling, fmt)
+    values = _fields(form, path, SOLIDS[kind], {"type"})
+    if "of" in values:
+        parts = values["of"]
+        if not isinstance(parts, list) or not parts:
+            raise Refused(f"{path}.of", "is not a list of one or more solids")
+        children = [
+            read_solid(part, f"{path}.of[{i}]", spelling, fmt) for i, part in enumerate(parts)
+        ]
+        return SOLIDS[kind](of=tuple(children))  # type: ignore[call-arg]
+    try:
+        return SOLIDS[kind](**{name: read(name, value) for name, value in values.items()})
+    except Refused as refusal:
+        raise refusal.under(path) from None
+
+
+def _fields(form: object, path: str, kind: type, besides: set[str]) -> Json:
+    """Return the fields of `kind` in `form`; refuse a missing or an unknown one."""
+    if not isinstance(form, Mapping):
+        raise Refused(path, f"is not an object: {form!r:.40}")
+    names = [field.name for field in fields(kind)]
+    for name in form:
+        if name not in names and name not in besides:
+            raise Refused(f"{path}.{name}", f"is not a field here (fields: {', '.join(names)})")
+    for name in names:
+        if name not in form:
+            raise Refused(f"{path}.{name}", "is missing")
+    return {name: form[name] for name in names}
+
+
+def _reader(spelling: Spelling, fmt: Format) -> Callable[[str, object], Any]:
+    """Return the function that turns a field's spelled numbers into numbers."""
+
+    def number(value: object, path: str) -> float:
+        if spelling != "decimal":
+            try:
+                value = parse(value, spelling, fmt)
+            except (ValueError, OverflowError) as error:
+                raise Refused(path, str(error)) from None
+        read = real(value, path)
+        if fmt is not BINARY64 and not fmt.holds(read):
+            raise Refused(path, f"is not a {fmt.name} number: {read!r}")
+        return read
+
+    def read(name: str, value: object) -> object:
+        if name not in VECTORS or not isinstance(value, list):
+            return number(value, name) if name == "radius" else value
+        return tuple(number(item, f"{name}[{i}]") for i, item in enumerate(value))
+
+    return read
