@@ -1,0 +1,207 @@
+"""The judge: is an answer right, how far from right, and on which level. Pure, exact.
+
+An answer is a list of pairs of numbers of a format. It is compared as a set of t with the lists of
+`oracle.moved`: inner_k <= answer <= outer_k. An endpoint beyond the largest finite number counts
+as infinity on both sides, since the format has no other word for it.
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from math import frexp, inf, isinf
+from typing import Literal
+
+from cases.accept import Accept, Numbers, Pairs, malformed
+from cases.case import Tier
+from cases.formats import Format
+from cases.model import Intersection, Ray, Solid, Tree, leaves
+from oracle.intervals import Interval, Intervals, contains, meets
+from oracle.moved import LAST_STEP, Measure, Scene, Step, moved_leaf
+from oracle.rounding import enclose
+from oracle.surd import INFINITY, Surd, dyadic, sign_1
+from oracle.trace import trace
+
+Level = Literal["sound", "stable", "faithful", "exact"]
+LEVELS: tuple[Level, ...] = ("sound", "stable", "faithful", "exact")
+"""From weak to strong; each includes the ones before it."""
+MEASURES: dict[Level, Measure] = {"sound": "squared", "stable": "strict"}
+LIMIT = 20
+"""The step of k = 64, which `sound` and `stable` allow."""
+
+
+def saturated(t: Surd, fmt: Format) -> Surd:
+    """Return t, or infinity where it is beyond the format's largest number."""
+    return INFINITY if t > dyadic(fmt.largest) else t
+
+
+@dataclass(frozen=True)
+class Judge:
+    """One case, ready to judge answers: everything that it needs is computed once, on demand."""
+
+    solid: Solid
+    ray: Ray
+    format: Format
+    tier: Tier = "generic"
+    tolerance: float = 0.0
+
+    @cached_property
+    def exact(self) -> Intervals:
+        """Return the exact list."""
+        return trace(self.solid, self.ray).intervals
+
+    @cached_property
+    def merged(self) -> Intervals:
+        """Return the exact list with the pairs joined that touch after rounding."""
+        joined: list[Interval] = []
+        for enter, leave in self.exact:
+            if joined and self.nearest(enter) <= self.nearest(joined[-1][1]):
+                joined[-1] = (joined[-1][0], leave)
+            else:
+                joined.append((enter, leave))
+        return tuple(joined)
+
+    @cached_property
+    def expected(self) -> Numbers:
+        """Return the exact list, each endpoint rounded to nearest; what touches is merged."""
+        return tuple((self.nearest(a), self.nearest(b)) for a, b in self.merged)
+
+    @cached_property
+    def scene(self) -> Scene:
+        """Return the scene to move."""
+        return Scene(self.solid, self.ray, self.format, self.tolerance)
+
+    def nearest(self, t: Surd) -> float:
+        """Return t rounded to nearest even."""
+        return enclose(t, self.format).nearest
+
+    def moved(self, step: int, measure: Measure, sigma: int) -> Intervals:
+        """Return the outer (sigma = 1) or inner (-1) list of a step of k, saturated."""
+        moved = self.scene.by_k(Step.at(step), measure, sigma)
+        return tuple((saturated(a, self.format), saturated(b, self.format)) for a, b in moved)
+
+    def most(self, outer: Intervals, step: int, measure: Measure) -> tuple[int, ...]:
+        """Return how many pairs may lie in each interval of an outer list.
+
+        One for a primitive and for an intersection of primitives; else the number of leaves whose
+        own outer list meets it.
+        """
+        if is_convex(self.solid):
+            return (1,) * len(outer)
+        lists = [
+            moved_leaf(leaf, self.scene.shift(leaf, Step.at(step), measure), 1, self.scene.grid)
+            for _, leaf in leaves(self.solid)
+        ]
+        return tuple(sum(any(meets(a, b) for b in own) for own in lists) for a in outer)
+
+    def accept(self, level: Level) -> Accept:
+        """Return the lists that decide `sound` or `stable` by comparing numbers of the format.
+
+        A number a of the format has a <= x exactly where a <= x rounded down. So inner enters round
+        down and leaves up, outer enters up and leaves down, and what empties is dropped.
+        """
+        measure = MEASURES[level]
+        inner, outer = self.moved(LIMIT, measure, -1), self.moved(LIMIT, measure, 1)
+        narrow = [(self._up(a), self._down(b)) for a, b in outer]
+        kept = [i for i, (a, b) in enumerate(narrow) if a <= b]
+        most = self.most(outer, LIMIT, measure)
+        return Accept(
+            tuple((self._down(a), self._up(b)) for a, b in inner),
+            tuple(narrow[i] for i in kept),
+            tuple(most[i] for i in kept),
+        )
+
+    def _down(self, t: Surd) -> float:
+        return enclose(t, self.format).down
+
+    def _up(self, t: Surd) -> float:
+        return enclose(t, self.format).up
+
+    def malformed(self, answer: Pairs) -> str | None:
+        """Return what is wrong with an answer's form here; None if nothing is."""
+        overflow = any(saturated(enter, self.format) == INFINITY for enter, _ in self.exact)
+        reason = malformed(answer, overflow)
+        if reason or self.tier != "lattice":
+            return reason
+        endless = bool(self.exact) and not self.exact[-1][1].finite
+        if (bool(answer) and answer[-1][1] == inf) != endless and answer:
+            return f"the last leave is {'finite' if endless else 'infinite'}, the exact one is not"
+        return None
+
+    def accepts(self, answer: Pairs, step: int, measure: Measure) -> bool:
+        """Tell whether inner <= answer <= outer for a step of k."""
+        given = tuple((dyadic(a), dyadic(b)) for a, b in answer)
+        return contains(self.moved(step, measure, 1), given) and contains(
+            given, self.moved(step, measure, -1)
+        )
+
+    def backward_error(self, answer: Pairs, measure: Measure) -> float:
+        """Return the least k that accepts an answer, to two significant bits, from 1/16 up.
+
+        Infinite for what is no list, and where no k does.
+        """
+        if malformed(answer, True):
+            return inf
+        steps = range(LAST_STEP + 1)
+        i = bisect_left(steps, True, key=lambda i: self.accepts(answer, i, measure))
+        return float(Step.at(i)) if i < len(steps) else inf
+
+    def forward_error(self, answer: Pairs) -> float:
+        """Return the largest distance of an endpoint from the exact one, in ulps of the exact one.
+
+        Infinite where the number of pairs is not that of the expected list. The result is a
+        rounded number for people; nothing is decided by it.
+        """
+        if len(answer) != len(self.merged) or malformed(answer, True):
+            return inf
+        return max((self._ulps(x, t) for x, t in self._ends(answer)), default=0.0)
+
+    def _ends(self, answer: Pairs) -> Iterator[tuple[float, Surd]]:
+        """Yield each endpoint of an answer with the exact one; the lists are equally long."""
+        for given, true in zip(answer, self.merged, strict=True):
+            yield from zip(given, true, strict=True)
+
+    def _ulps(self, x: float, t: Surd) -> float:
+        if isinf(x) or not saturated(t, self.format).finite:
+            return 0.0 if x == self.nearest(t) else inf
+        below = enclose(t, self.format).down
+        ulp = max(frexp(below)[1] - self.format.precision, self.format.least)
+        return enclose(_distance(dyadic(x), t, ulp), self.format).nearest
+
+    def faithful(self, answer: Pairs) -> bool:
+        """Tell whether every endpoint is one of the two numbers that enclose the exact one."""
+        if len(answer) != len(self.merged):
+            return False
+        return all(self._adjacent(x, t) for x, t in self._ends(answer))
+
+    def _adjacent(self, x: float, t: Surd) -> bool:
+        rounded = enclose(t, self.format)
+        return x in (rounded.down, rounded.up)
+
+    def holds(self, level: Level, answer: Pairs) -> bool:
+        """Tell whether an answer is what a level asks for."""
+        if self.malformed(answer):
+            return False
+        match level:
+            case "exact":
+                return tuple(answer) == self.expected
+            case "faithful":
+                return self.faithful(answer)
+        return self.accept(level).fault(answer) is None
+
+
+def is_convex(solid: Solid) -> bool:
+    """Tell whether a solid is a primitive or an intersection of such: at most one interval."""
+    if isinstance(solid, Intersection):
+        return all(is_convex(part) for part in solid.of)
+    return not isinstance(solid, Tree)
+
+
+def _distance(x: Surd, t: Surd, ulp: int) -> Surd:
+    """Return |x - t| / 2^ulp, x rational."""
+    up, down = 1 << max(-ulp, 0), 1 << max(ulp, 0)
+    a, b, z = (x.x * t.z - t.x * x.z) * up, -t.y * x.z * up, x.z * t.z * down
+    flip = -1 if sign_1(a, b, t.d) < 0 else 1
+    return Surd(flip * a, flip * b, t.d, z)
