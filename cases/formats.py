@@ -38,6 +38,11 @@ class Format:
         """Return the largest finite number."""
         return math.ldexp(2.0**self.precision - 1.0, self.overflow - self.precision)
 
+    @property
+    def smallest_normal(self) -> float:
+        """Return the smallest positive number that has all its digits."""
+        return math.ldexp(1.0, self.least + self.precision - 1)
+
     def holds(self, number: float) -> bool:
         """Tell whether `number` is one of this format's (infinities included)."""
         return not math.isnan(number) and self.nearest(number) == number

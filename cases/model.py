@@ -220,7 +220,7 @@ def type_of(solid: Solid) -> str:
 
 def leaves(solid: Solid, path: str = "") -> Iterator[tuple[str, Leaf]]:
     """Yield (path, leaf) in order; a path reads `of[1].of[0]`, and is empty for a lone leaf."""
-    if isinstance(solid, Union | Intersection | Difference):
+    if isinstance(solid, Tree):
         for i, part in enumerate(solid.of):
             yield from leaves(part, f"{path}.of[{i}]" if path else f"of[{i}]")
     else:

@@ -1,9 +1,9 @@
 """The case table: the seed's three tables as data.
 
 A row is a name, the parts of the seed that derive it, its condition, and the pairs it emits.
-A condition is a list of (quantity, relation to zero); it holds if all of them do. Rows are
-decided by `decide`, which asks for the sign of a quantity only once the conditions before it
-hold: a row never asks for a quantity that is undefined where it stands.
+A condition is a list of (quantity, relation to zero); it holds if all of them do. `Table.decide`
+asks for the sign of a quantity only once the conditions before it hold: a row never asks for a
+quantity that is undefined where it stands.
 
 Quantities of Problem 1, with vbar = v x w/|w| and ybar = y x w/|w|:
 
@@ -53,7 +53,49 @@ class Row:
     pairs: str
 
 
-PROBLEM_1 = (
+class Table(tuple[Row, ...]):
+    """The rows of a table, in the seed's order; of any signs, exactly one row holds.
+
+    That the rows exclude one another and leave nothing out is proved in tests/test_cases_table.py.
+    """
+
+    def __new__(cls, *rows: Row) -> Table:
+        """Hold the rows."""
+        return super().__new__(cls, rows)
+
+    def __init__(self, *rows: Row) -> None:
+        """Start with nothing found to follow from signs."""
+        self._steps: dict[Signs, str | Row] = {}
+
+    def decide(self, sign: Callable[[str], int]) -> tuple[Row, Signs]:
+        """Return the row whose condition holds, and the signs that decided it, in the order asked.
+
+        `sign` gives the sign (-1, 0, 1) of a quantity, and is asked for no more than is needed.
+        Signs that contradict the table's axioms may reach no row: `ArithmeticError`.
+        """
+        known: Signs = ()
+        while True:
+            step = self._steps.get(known)
+            if step is None:
+                step = self._steps[known] = self._next(dict(known))
+            if isinstance(step, Row):
+                return step, known
+            known = (*known, (step, sign(step)))
+
+    def _next(self, known: dict[str, int]) -> str | Row:
+        """Return the first row that holds, or the quantity that it takes to tell."""
+        for row in self:
+            for quantity, relation in row.condition:
+                if quantity not in known:
+                    return quantity
+                if known[quantity] not in HOLDS[relation]:
+                    break
+            else:
+                return row
+        raise ArithmeticError(f"no row holds for {known}")
+
+
+PROBLEM_1 = Table(
     Row("along-inside", "1 (d,e,l)", (("vv", "= 0"), ("inside", ">= 0")), "{(0, inf)}"),
     Row("along-outside", "1 (d,e)", (("vv", "= 0"), ("inside", "< 0")), "{}"),
     Row("miss", "1 (d,e)", (("vv", "!= 0"), ("disc", "< 0")), "{}"),
@@ -73,7 +115,7 @@ PROBLEM_1 = (
 )
 """The infinite cylinder. The seed prints its last two pairs as {0, t2} and {t1, t2}."""
 
-PROBLEM_2 = (
+PROBLEM_2 = Table(
     Row("AE", "2 (g)", (("up", "<= 0"), ("uq", ">= 0"), ("vn", "= 0")), "{(0, inf)}"),
     Row("BE", "2 (g)", (("up", "<= 0"), ("uq", ">= 0"), ("vn", "> 0")), "{(0, tp)}"),
     Row("AF", "2 (g)", (("up", "<= 0"), ("uq", ">= 0"), ("vn", "< 0")), "{(0, tq)}"),
@@ -84,7 +126,7 @@ PROBLEM_2 = (
 )
 """The slab."""
 
-HALF_SPACE = (
+HALF_SPACE = Table(
     Row("A", "2 (c)", (("up", "<= 0"), ("vn", "<= 0")), "{(0, inf)}"),
     Row("B", "2 (c)", (("up", "<= 0"), ("vn", "> 0")), "{(0, tp)}"),
     Row("C", "2 (c)", (("up", "> 0"), ("vn", "< 0")), "{(tp, inf)}"),
@@ -92,7 +134,7 @@ HALF_SPACE = (
 )
 """One plane: the four cases of Problem 2 (c)."""
 
-PROBLEM_3 = (
+PROBLEM_3 = Table(
     Row("neither", "3 (a)", (("pairs_1", "= 0"), ("pairs_2", "= 0")), "{}"),
     Row("no-1", "3 (b)", (("pairs_1", "= 0"), ("pairs_2", "> 0")), "{}"),
     Row("no-2", "3 (c)", (("pairs_1", "> 0"), ("pairs_2", "= 0")), "{}"),
@@ -102,26 +144,6 @@ PROBLEM_3 = (
 """The capped cylinder: the intersection of the two."""
 
 COMPARISONS = ("a-c", "b-d", "m-n")
-
-
-def decide(table: tuple[Row, ...], sign: Callable[[str], int]) -> tuple[Row, Signs]:
-    """Return the row whose condition holds, and the signs that decided it, in the order asked.
-
-    `sign` gives the sign (-1, 0, 1) of a quantity. The rows of each table exclude one another and
-    leave nothing out (proved in tests/test_cases_table.py), so one row always holds; a `sign`
-    that contradicts the table's axioms may reach none, which raises `ArithmeticError`.
-    """
-    known: dict[str, int] = {}
-
-    def holds(quantity: str, relation: Relation) -> bool:
-        if quantity not in known:
-            known[quantity] = sign(quantity)
-        return known[quantity] in HOLDS[relation]
-
-    for row in table:
-        if all(holds(quantity, relation) for quantity, relation in row.condition):
-            return row, tuple(known.items())
-    raise ArithmeticError(f"no row holds for {known}")
 
 
 def comparison_names(signs: dict[str, int]) -> tuple[str, ...]:

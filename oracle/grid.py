@@ -31,20 +31,17 @@ def sub(a: IntVector, b: IntVector) -> IntVector:
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
-def fraction_bits(numbers: Iterable[float]) -> int:
-    """Return the least n >= 0 for which every number is a multiple of 2^-n."""
-    return max(x.as_integer_ratio()[1].bit_length() - 1 for x in numbers)
+def dyadics(numbers: Iterable[float], refine: int = 0) -> tuple[int, dict[float, int]]:
+    """Return the least n >= 0 for which 2^n makes every number an integer, and those integers.
 
+    With `refine`, n is that much larger.
 
-def integer(x: float, bits: int) -> int:
-    """Return x * 2^bits, an integer."""
-    numerator, denominator = x.as_integer_ratio()
-    return numerator << bits - denominator.bit_length() + 1
-
-
-def integers(v: Vector, bits: int) -> IntVector:
-    """Return v * 2^bits, in integers."""
-    return (integer(v[0], bits), integer(v[1], bits), integer(v[2], bits))
+    >>> dyadics((0.75, 2.0))
+    (2, {0.75: 3, 2.0: 8})
+    """
+    ratios = {x: x.as_integer_ratio() for x in numbers}
+    bits = max([ratio[1] for ratio in ratios.values()]).bit_length() + refine
+    return bits - 1, {x: n << bits - d.bit_length() for x, (n, d) in ratios.items()}
 
 
 def lengths(leaf: Leaf) -> tuple[float, ...]:
@@ -61,28 +58,37 @@ def lengths(leaf: Leaf) -> tuple[float, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Grid:
-    """Units of 2^-length for lengths, 2^-speed for the direction; u and v are the ray in them."""
+    """Units of 2^-length for lengths, 2^-speed for the direction; u and v are the ray in them.
+
+    `integers` has each length of the scene in the grid's unit, so that what serves several faces
+    is converted once.
+    """
 
     length: int
     speed: int
     u: IntVector
     v: IntVector
+    integers: dict[float, int]
 
     @classmethod
     def of(cls, solid: Solid, ray: Ray, refine: int = 0, also: Iterable[float] = ()) -> Grid:
         """Return the coarsest grid that holds the scene and the lengths `also`, made finer."""
-        numbers = [x for _, leaf in leaves(solid) for x in lengths(leaf)]
-        length = fraction_bits((*numbers, *ray.origin, *also)) + refine
-        speed = fraction_bits(ray.direction) + refine
-        return cls(length, speed, integers(ray.origin, length), integers(ray.direction, speed))
+        numbers = [*ray.origin, *also]
+        for _, leaf in leaves(solid):
+            numbers += lengths(leaf)
+        length, integers = dyadics(numbers, refine)
+        speed, parts = dyadics(ray.direction, refine)
+        (a, b, c), (d, e, f) = ray.origin, ray.direction
+        u, v = (integers[a], integers[b], integers[c]), (parts[d], parts[e], parts[f])
+        return cls(length, speed, u, v, integers)
 
     def point(self, x: Vector) -> IntVector:
-        """Return a point in the grid's units."""
-        return integers(x, self.length)
+        """Return a point of the scene in the grid's units."""
+        return (self.integers[x[0]], self.integers[x[1]], self.integers[x[2]])
 
     def scalar(self, x: float) -> int:
-        """Return a length in the grid's units."""
-        return integer(x, self.length)
+        """Return a length of the scene in the grid's units."""
+        return self.integers[x]
 
     def surd(self, x: int, y: int, d: int, z: int) -> Surd:
         """Return (x + y sqrt(d)) / z in the grid's unit of t, as a number; z != 0."""
@@ -98,4 +104,5 @@ class Grid:
 
 def normal(v: Vector) -> IntVector:
     """Return v in integers, in a unit of its own: only the direction of a normal matters."""
-    return integers(v, fraction_bits(v))
+    _, parts = dyadics(v)
+    return (parts[v[0]], parts[v[1]], parts[v[2]])

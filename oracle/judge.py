@@ -1,8 +1,7 @@
 """The judge: is an answer right, how far from right, and on which level. Pure, exact.
 
 An answer is a list of pairs of numbers of a format. It is compared as a set of t with the lists of
-`oracle.moved`: inner_k <= answer <= outer_k. An endpoint beyond the largest finite number counts
-as infinity on both sides, since the format has no other word for it.
+`oracle.moved`: inner_k <= answer <= outer_k, as far as the format can tell them apart (`told`).
 """
 
 from __future__ import annotations
@@ -18,9 +17,9 @@ from cases.accept import Accept, Numbers, Pairs, malformed
 from cases.case import Tier
 from cases.formats import Format
 from cases.model import Intersection, Ray, Solid, Tree, leaves
-from oracle.intervals import Interval, Intervals, contains, meets
+from oracle.intervals import Intervals, contains, meets
 from oracle.moved import LAST_STEP, Measure, Scene, Step, moved_leaf
-from oracle.rounding import enclose
+from oracle.rounding import enclose, expected, nearest
 from oracle.surd import INFINITY, Surd, dyadic, sign_1
 from oracle.trace import trace
 
@@ -35,6 +34,18 @@ LIMIT = 20
 def saturated(t: Surd, fmt: Format) -> Surd:
     """Return t, or infinity where it is beyond the format's largest number."""
     return INFINITY if t > dyadic(fmt.largest) else t
+
+
+def told(t: Surd, up: bool, fmt: Format) -> Surd:
+    """Return a bound as far as the format can tell it: the benefit of the doubt is the answer's.
+
+    Beyond the largest number there is only infinity; below the smallest normal number, where a
+    correctly rounded t is no longer within u t, only the multiples of 2^least around it.
+    """
+    if t < dyadic(fmt.smallest_normal):
+        rounded = enclose(t, fmt)
+        return dyadic(rounded.up if up else rounded.down)
+    return saturated(t, fmt)
 
 
 @dataclass(frozen=True)
@@ -53,34 +64,31 @@ class Judge:
         return trace(self.solid, self.ray).intervals
 
     @cached_property
+    def _expected(self) -> tuple[Intervals, Numbers]:
+        return expected(self.exact, self.format)
+
+    @property
     def merged(self) -> Intervals:
         """Return the exact list with the pairs joined that touch after rounding."""
-        joined: list[Interval] = []
-        for enter, leave in self.exact:
-            if joined and self.nearest(enter) <= self.nearest(joined[-1][1]):
-                joined[-1] = (joined[-1][0], leave)
-            else:
-                joined.append((enter, leave))
-        return tuple(joined)
+        return self._expected[0]
 
-    @cached_property
+    @property
     def expected(self) -> Numbers:
         """Return the exact list, each endpoint rounded to nearest; what touches is merged."""
-        return tuple((self.nearest(a), self.nearest(b)) for a, b in self.merged)
+        return self._expected[1]
 
     @cached_property
     def scene(self) -> Scene:
         """Return the scene to move."""
         return Scene(self.solid, self.ray, self.format, self.tolerance)
 
-    def nearest(self, t: Surd) -> float:
-        """Return t rounded to nearest even."""
-        return enclose(t, self.format).nearest
-
     def moved(self, step: int, measure: Measure, sigma: int) -> Intervals:
-        """Return the outer (sigma = 1) or inner (-1) list of a step of k, saturated."""
+        """Return the outer (sigma = 1) or inner (-1) list of a step of k, as far as told."""
         moved = self.scene.by_k(Step.at(step), measure, sigma)
-        return tuple((saturated(a, self.format), saturated(b, self.format)) for a, b in moved)
+        ends = (
+            (told(a, sigma < 0, self.format), told(b, sigma > 0, self.format)) for a, b in moved
+        )
+        return tuple((a, b) for a, b in ends if a <= b)
 
     def most(self, outer: Intervals, step: int, measure: Measure) -> tuple[int, ...]:
         """Return how many pairs may lie in each interval of an outer list.
@@ -165,9 +173,10 @@ class Judge:
 
     def _ulps(self, x: float, t: Surd) -> float:
         if isinf(x) or not saturated(t, self.format).finite:
-            return 0.0 if x == self.nearest(t) else inf
-        below = enclose(t, self.format).down
-        ulp = max(frexp(below)[1] - self.format.precision, self.format.least)
+            return 0.0 if x == nearest(t, self.format) else inf
+        below, ulp = enclose(t, self.format).down, self.format.least
+        if below:
+            ulp = max(frexp(below)[1] - self.format.precision, ulp)
         return enclose(_distance(dyadic(x), t, ulp), self.format).nearest
 
     def faithful(self, answer: Pairs) -> bool:

@@ -14,15 +14,14 @@ The radius and the ends are read from the leaf in the units of a `Grid`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from cases.model import Cylinder, HalfSpace, InfiniteCylinder, Slab, Sphere
 from oracle.grid import Grid, cross, dot, normal, sub
 from oracle.surd import Surd, sign
 
 
-@dataclass(frozen=True, slots=True)
-class Plane:
+class Plane(NamedTuple):
     """c + b t <= 0; `square` is the squared length of the normal it was made with."""
 
     c: int
@@ -34,8 +33,7 @@ class Plane:
         return grid.surd(-self.c, 0, 0, self.b)
 
 
-@dataclass(frozen=True, slots=True)
-class Quadric:
+class Quadric(NamedTuple):
     """a t^2 + 2 b t + c <= 0 with a >= 0; `scale` is what the squared radius was multiplied by."""
 
     a: int

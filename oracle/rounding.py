@@ -10,15 +10,16 @@ as one sticky bit, so ties, subnormals and overflow need no further precision.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import inf, isqrt, ldexp
+from typing import NamedTuple
 
+from cases.accept import Numbers
 from cases.formats import Format
+from oracle.intervals import Intervals
 from oracle.surd import Surd
 
 
-@dataclass(frozen=True, slots=True)
-class Rounded:
+class Rounded(NamedTuple):
     """The three roundings of one number: `down` <= number <= `up`, `nearest` with ties to even."""
 
     down: float
@@ -48,10 +49,10 @@ def exponent(v: Surd) -> int:
     Where x and y sqrt(d) cancel, |v| = |x^2 - y^2 d| / (z (|x| + |y| sqrt(d))).
     """
     square = v.y * v.y * v.d
-    top = abs(v.x) + isqrt(square)
+    top = max(v.x.bit_length(), (square.bit_length() + 1) // 2)
     if v.x and v.y and (v.x < 0) != (v.y < 0):
-        return abs(v.x * v.x - square).bit_length() - (v.z * top).bit_length()
-    return top.bit_length() - v.z.bit_length()
+        return (v.x * v.x - square).bit_length() - top - v.z.bit_length()
+    return top - v.z.bit_length()
 
 
 def enclose(v: Surd, fmt: Format) -> Rounded:
@@ -88,6 +89,21 @@ def _number(significand: int, lsb: int, fmt: Format) -> float:
     if significand.bit_length() + lsb > fmt.overflow:
         return inf
     return ldexp(significand, lsb)
+
+
+def expected(intervals: Intervals, fmt: Format) -> tuple[Intervals, Numbers]:
+    """Return a list with the pairs joined that touch after rounding: exactly, and rounded."""
+    exact, near = list(intervals), [(nearest(a, fmt), nearest(b, fmt)) for a, b in intervals]
+    for i in range(len(near) - 1, 0, -1):
+        if near[i][0] <= near[i - 1][1]:
+            exact[i - 1 : i + 1] = [(exact[i - 1][0], exact[i][1])]
+            near[i - 1 : i + 1] = [(near[i - 1][0], near[i][1])]
+    return tuple(exact), tuple(near)
+
+
+def nearest(v: Surd, fmt: Format) -> float:
+    """Return v rounded to nearest even."""
+    return enclose(v, fmt).nearest
 
 
 def decimal(v: Surd, digits: int = 40) -> str:

@@ -6,7 +6,7 @@ decided it, as they were found. Booleans combine the lists of their parts.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from cases.model import (
     Cylinder,
@@ -19,6 +19,7 @@ from cases.model import (
     Slab,
     Solid,
     Sphere,
+    Tree,
     Union,
 )
 from cases.table import (
@@ -29,7 +30,6 @@ from cases.table import (
     Row,
     Signs,
     comparison_names,
-    decide,
 )
 from oracle.grid import Grid
 from oracle.intervals import (
@@ -44,8 +44,7 @@ from oracle.leaf import Plane, Quadric, ball, caps, half_space, plane_signs, wal
 from oracle.surd import INFINITY, ZERO, Surd, sign
 
 
-@dataclass(frozen=True, slots=True)
-class Decision:
+class Decision(NamedTuple):
     """A row of the case table that was taken: where in the tree, and the signs that decided."""
 
     path: str
@@ -59,8 +58,7 @@ class Decision:
         return tuple(prefix + n for n in (self.row.name, *comparison_names(dict(self.signs))))
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
+class Answer(NamedTuple):
     """The exact interval list, and the decisions that led to it, in the order they were made."""
 
     intervals: Intervals
@@ -88,7 +86,7 @@ def trace(solid: Solid, ray: Ray) -> Answer:
 
 
 def _solve(solid: Solid, grid: Grid, path: str, decisions: list[Decision]) -> Intervals:
-    if not isinstance(solid, Union | Intersection | Difference):
+    if not isinstance(solid, Tree):
         return solve_leaf(solid, grid, path, decisions)
     lists = [
         _solve(part, grid, f"{path}.of[{i}]" if path else f"of[{i}]", decisions)
@@ -97,7 +95,7 @@ def _solve(solid: Solid, grid: Grid, path: str, decisions: list[Decision]) -> In
     return combine(solid, lists)
 
 
-def combine(tree: Union | Intersection | Difference, lists: list[Intervals]) -> Intervals:
+def combine(tree: Tree, lists: list[Intervals]) -> Intervals:
     """Return the list of a Boolean from those of its parts, one or more."""
     match tree:
         case Union():
@@ -142,7 +140,7 @@ def _round(face: Quadric, grid: Grid, path: str, decisions: list[Decision]) -> I
         roots = roots or face.roots(grid, disc)
         return roots[quantity == "t2"].sign()
 
-    row, known = decide(PROBLEM_1, signs)
+    row, known = PROBLEM_1.decide(signs)
     decisions.append(Decision(path, row, known))
     match row.name:
         case "along-inside":
@@ -157,7 +155,7 @@ def _round(face: Quadric, grid: Grid, path: str, decisions: list[Decision]) -> I
 def _half_space(plane: Plane, grid: Grid, path: str, decisions: list[Decision]) -> Intervals:
     """Problem 2 (c): one plane."""
     signs = {"up": sign(plane.c), "vn": sign(plane.b)}
-    row, known = decide(HALF_SPACE, signs.__getitem__)
+    row, known = HALF_SPACE.decide(signs.__getitem__)
     decisions.append(Decision(path, row, known))
     match row.name:
         case "A":
@@ -173,7 +171,7 @@ def _slab(
     p_plane: Plane, q_plane: Plane, grid: Grid, path: str, decisions: list[Decision]
 ) -> Intervals:
     """Problem 2: the slab between the two planes."""
-    row, known = decide(PROBLEM_2, plane_signs(p_plane, q_plane).__getitem__)
+    row, known = PROBLEM_2.decide(plane_signs(p_plane, q_plane).__getitem__)
     decisions.append(Decision(path, row, known))
     match row.name:
         case "AE":
@@ -200,6 +198,6 @@ def _capped(one: Intervals, two: Intervals, path: str, decisions: list[Decision]
         n = b if signs["b-d"] < 0 else d
         signs["m-n"] = m.compare(n)
         common = ((m, n),)
-    row, _ = decide(PROBLEM_3, signs.__getitem__)
+    row, _ = PROBLEM_3.decide(signs.__getitem__)
     decisions.append(Decision(path, row, tuple(signs.items())))
     return common if row.name == "meet" else NOTHING
