@@ -1,0 +1,21 @@
+"""`python -m reference`: the compact tracer as a server of the line protocol."""
+
+from __future__ import annotations
+
+from importlib.metadata import PackageNotFoundError, version
+
+from cases.protocol import Hello
+from cases.serve import serve
+from reference.tracer import intersect
+
+
+def hello() -> Hello:
+    """Return what the tracer declares: every solid, binary64, `closed`."""
+    try:
+        return Hello("raycert reference", version("raycert"))
+    except PackageNotFoundError:
+        return Hello("raycert reference")
+
+
+if __name__ == "__main__":
+    serve(intersect, hello())
