@@ -1,0 +1,213 @@
+"""One program that speaks the line protocol: its hello, questions to it, answers in order.
+
+Here: which answer belongs to which question. Not here: what follows a failure.
+"""
+
+from __future__ import annotations
+
+import secrets
+import shlex
+from collections import deque
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from cases.model import Ray, Solid
+from cases.protocol import VERSION, BadLine, Hello, Reply, ask, encode, read_hello, read_reply
+from oracle.process import GRACE, Broken, Failure, Process, shown
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """A case as it is asked. The `id` is ours, and is never sent."""
+
+    id: str
+    solid: Solid
+    ray: Ray
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """What a program may take.
+
+    Seconds to the hello and to an answer; bytes in a line; questions outstanding at a time.
+    A run is given up after `in_a_row` questions that fail one after the other, or when `lost`
+    seconds have gone into silence and restarts.
+    """
+
+    hello: float = 10.0
+    case: float = 5.0
+    line: int = 1 << 20
+    window: int = 256
+    in_a_row: int = 50
+    lost: float = 600.0
+
+
+class Unusable(Exception):
+    """The target could not be run at all; the text says what was seen and what to do."""
+
+
+def fresh_ids() -> Iterator[str]:
+    """Yield ids that tell nothing: not the case, and not its place in the corpus."""
+    state = secrets.randbits(32)
+    while True:
+        state = (state + 0x9E3779B1) % (1 << 32)
+        yield f"q{state:08x}"
+
+
+class Dialogue:
+    """A running implementation that has said hello.
+
+    `hello` is what it declared; `unanswered` the questions it owes, in order; `last` the one it
+    answered last; `asked` how many it was asked.
+    """
+
+    def __init__(self, command: Sequence[str], limits: Limits, ids: Iterator[str]) -> None:
+        """Start the program and read its hello. Raises `Unusable`."""
+        self.asked = 0
+        self.last: Question | None = None
+        self._limits = limits
+        self._ids = ids
+        self._owed: deque[tuple[str, Question]] = deque()
+        self._last_id = ""
+        self._process = _start(command, limits)
+        try:
+            self.hello, self._held = self._greet(command)
+        except BaseException:
+            self.kill()
+            raise
+
+    @property
+    def unanswered(self) -> list[Question]:
+        """Return the questions without an answer, oldest first."""
+        return [question for _, question in self._owed]
+
+    @property
+    def owed(self) -> int:
+        """Return how many questions have no answer."""
+        return len(self._owed)
+
+    def ask(self, questions: Iterable[Question]) -> None:
+        """Send questions, in the spelling and format of the hello. Never blocks."""
+        spelling, fmt, lines = self.hello.numbers, self.hello.format, []
+        for question in questions:
+            id = next(self._ids)
+            self._owed.append((id, question))
+            lines.append(ask(id, question.solid, question.ray, spelling, fmt))
+        self.asked += len(lines)
+        self._process.send(b"".join(lines))
+
+    def answers(self) -> Iterator[tuple[Question, Reply]]:
+        """Yield the answers that have come, waiting for the first; each carries the question's id.
+
+        Raises `Broken`, after the good answers before the failure.
+        """
+        lines, self._held = self._held, []
+        for line in lines or self._process.receive(self._limits.case):
+            yield self._match(line)
+
+    def stay_quiet(self) -> None:
+        """Raise `Broken` if the program says more, or ends, though it owes nothing."""
+        more = self._unasked() or self._process.listen(GRACE / 10)
+        if more == b"":
+            raise Broken(Failure("crash", f"{self._process.status()} after its answer"))
+        if more:
+            raise Broken(_too_much(more))
+
+    def finish(self) -> str:
+        """End the input, wait for the end; return what is odd about it, or nothing.
+
+        Raises `Broken` if lines come after the last answer. The program is dead afterwards.
+        """
+        try:
+            self._process.close()
+            if more := self._unasked() or self._process.listen(2 * GRACE):
+                raise Broken(_too_much(more))
+            ending = self._process.status()
+        finally:
+            self.kill()
+        if ending == "did not end":
+            return "it did not end when its input ended, and was killed"
+        return "" if ending == "ended with exit status 0" else f"after its input ended it {ending}"
+
+    def kill(self) -> None:
+        """Leave nothing of the program behind."""
+        self._process.kill()
+
+    def _greet(self, command: Sequence[str]) -> tuple[Hello, list[bytes]]:
+        self._process.send(encode({"hello": VERSION}))
+        name = shlex.join(command)
+        try:
+            first, *more = self._process.receive(self._limits.hello)
+        except Broken as broken:
+            raise Unusable(_no_hello(name, broken.failure)) from None
+        try:
+            return read_hello(first), more
+        except BadLine as error:
+            raise Unusable(_bad_hello(name, str(error), first, self._process.errors())) from None
+
+    def _unasked(self) -> bytes:
+        """Return what has come beside the answers."""
+        return b"\n".join([*self._held, self._process.leftover()])
+
+    def _match(self, line: bytes) -> tuple[Question, Reply]:
+        """Return the oldest question with the answer to it that `line` is."""
+        if not self._owed:
+            raise Broken(_too_much(line))
+        id, question = self._owed[0]
+        try:
+            reply = read_reply(line, self.hello)
+        except BadLine as error:
+            raise Broken(Failure("bad-line", f"the line {error}", shown(line, 1000))) from None
+        if reply.id != id:
+            raise Broken(self._wrong_id(reply.id, id, line))
+        self._owed.popleft()
+        self.last, self._last_id = question, id
+        return question, replace(reply, id=question.id)
+
+    def _wrong_id(self, subject: str, truth: str, line: bytes) -> Failure:
+        detail = f"answered id {subject[:40]!r} where {truth!r} was next"
+        if subject == self._last_id:
+            detail += "; that one was answered just before"
+        elif any(subject == id for id, _ in self._owed):
+            detail += "; that one was asked later: answers have to come in the order of questions"
+        else:
+            detail += "; no such id was asked: ids have to be given back as they are"
+        return Failure("wrong-id", detail, shown(line, 1000))
+
+
+def _start(command: Sequence[str], limits: Limits) -> Process:
+    try:
+        if not command:
+            raise ValueError("there is no command")
+        return Process(command, limits.line)
+    except (OSError, ValueError) as error:
+        name = shlex.join(command)
+        raise Unusable(
+            f"cannot start {name!r}: {error}. Give the program and its arguments as you would "
+            "type them in a terminal, and see that the file exists and is executable."
+        ) from None
+
+
+def _too_much(output: bytes) -> Failure:
+    text = shown(output)
+    return Failure("bad-line", f"wrote more than its answers: {text!r}", shown(output, 1000))
+
+
+EXAMPLE = '{"hello": 1, "name": "my tracer"}'
+
+
+def _no_hello(name: str, failure: Failure) -> str:
+    advice = f'It has to answer the line {{"hello": 1}} with a line such as {EXAMPLE}'
+    if failure.kind == "hang":
+        advice += ", and to flush its standard output after each line"
+    return f"{name!r} gave no hello: {failure.detail}. {advice}."
+
+
+def _bad_hello(name: str, error: str, first: bytes, errors: str) -> str:
+    seen = f"{name!r} gave a bad hello: {error}. Its first line was {shown(first)!r}."
+    if errors:
+        seen += f" Standard error: {errors}."
+    return (
+        f"{seen} Its first line has to be one such as {EXAMPLE}; anything else that it prints "
+        "belongs on standard error."
+    )

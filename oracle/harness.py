@@ -1,0 +1,272 @@
+"""Run an implementation over many questions, and pin every failure on the question that caused it.
+
+Questions are pipelined. After a crash, a hang, a bad line or a wrong id the process is killed, and
+what it had not answered is asked again one at a time. A failure is a question's own only where the
+question was the first that a fresh process was asked; a failure that does not come again so is
+`unrepeatable`. Here: that replay. Not here: pipes and time (oracle/process.py), the protocol
+(oracle/dialogue.py), whether an answer is right.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from cases.protocol import Hello, Reply
+from oracle.dialogue import Dialogue, Limits, Question, Unusable, fresh_ids
+from oracle.process import Broken, Failure
+
+__all__ = [
+    "Failure",
+    "Interrupted",
+    "Limits",
+    "Outcome",
+    "Question",
+    "Run",
+    "Unusable",
+    "greet",
+    "run",
+]
+
+STARTS = 3
+"""A program that gave no hello this many times in a row is not started again."""
+
+Outcome = Reply | Failure
+Progress = Callable[[int], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """What came of a run: the outcome of each question by its id, in the order of the questions.
+
+    Every question is there, unless the run was interrupted.
+    """
+
+    hello: Hello
+    outcomes: Mapping[str, Outcome]
+    restarts: int
+    notes: tuple[str, ...]
+
+
+class Interrupted(KeyboardInterrupt):
+    """The person interrupted the run; `run` is what was known by then."""
+
+    def __init__(self, run: Run) -> None:
+        """Carry the partial run."""
+        super().__init__()
+        self.run = run
+
+
+def greet(command: Sequence[str], limits: Limits | None = None) -> Hello:
+    """Return what an implementation declares of itself. Raises `Unusable`."""
+    dialogue = Dialogue(command, limits or Limits(), fresh_ids())
+    dialogue.kill()
+    return dialogue.hello
+
+
+def run(
+    command: Sequence[str],
+    questions: Sequence[Question],
+    limits: Limits | None = None,
+    on_progress: Progress | None = None,
+) -> Run:
+    """Ask an implementation all the questions, whose ids are distinct.
+
+    Every question gets an outcome, within bounded time. No process is left behind. `on_progress`
+    is told now and then how many questions have one. Raises `Unusable` if the first start gives no
+    hello, and `Interrupted` on KeyboardInterrupt.
+    """
+    if len({question.id for question in questions}) < len(questions):
+        raise ValueError("two questions have the same id")
+    replay = Replay(command, questions, limits or Limits(), on_progress or (lambda _: None))
+    try:
+        replay.all()
+    except KeyboardInterrupt:
+        raise Interrupted(replay.result()) from None
+    finally:
+        replay.kill()
+    return replay.result()
+
+
+class GivenUp(Exception):
+    """It is no use to go on."""
+
+
+class Replay:
+    """The state of one run."""
+
+    def __init__(
+        self,
+        command: Sequence[str],
+        questions: Sequence[Question],
+        limits: Limits,
+        on_progress: Progress,
+    ) -> None:
+        """Start the implementation for the first time. Raises `Unusable`."""
+        self._command, self._questions, self._limits = command, questions, limits
+        self._on_progress = on_progress
+        self._pending = deque(questions)
+        self._outcomes: dict[str, Outcome] = {}
+        self._worst = Failure("crash", "")
+        self._restarts = 0
+        self._in_a_row = 0
+        self._lost = 0.0
+        self._notes: list[str] = []
+        self._ids = fresh_ids()
+        self._dialogue: Dialogue | None = Dialogue(command, limits, self._ids)
+        self._hello = self._dialogue.hello
+
+    def all(self) -> None:
+        """Get every question an outcome."""
+        try:
+            while self._pending:
+                self._stream()
+            self._end()
+        except GivenUp as reason:
+            self._abandon(str(reason))
+
+    def result(self) -> Run:
+        """Return what is known so far."""
+        known = self._outcomes
+        outcomes = {q.id: known[q.id] for q in self._questions if q.id in known}
+        return Run(self._hello, outcomes, self._restarts, tuple(self._notes))
+
+    def kill(self) -> None:
+        """Leave no process behind."""
+        dialogue, self._dialogue = self._dialogue, None
+        if dialogue is not None:
+            dialogue.kill()
+
+    def _stream(self) -> None:
+        """Ask the pending questions, many at a time, until all are answered or one fails."""
+        dialogue = self._live()
+        try:
+            while self._pending or dialogue.owed:
+                room = min(self._limits.window - dialogue.owed, len(self._pending))
+                if room > 0:
+                    dialogue.ask([self._pending.popleft() for _ in range(room)])
+                for question, reply in dialogue.answers():
+                    self._settle(question, reply)
+                self._on_progress(len(self._outcomes))
+        except Broken as broken:
+            self._blame(dialogue, broken.failure)
+
+    def _blame(self, dialogue: Dialogue, failure: Failure) -> bool:
+        """Give outcomes to all that a failed process did not answer.
+
+        Returns whether the failure of one of them came again in a fresh process.
+        """
+        self.kill()
+        self._lost += self._limits.case if failure.kind == "hang" else 0.0
+        self._worst = failure
+        before = [dialogue.last] if dialogue.last else []
+        head, *rest = dialogue.unanswered or before
+        if dialogue.asked == 1:
+            self._settle(head, failure)
+            return True
+        again = self._confirm(head)
+        if not again and failure.kind != "hang" and before != [head]:
+            again = any(map(self._confirm, before))  # it may have failed after its answer
+        for question in rest:
+            again = self._single(question) or again
+        if not again:
+            self._settle(head, _unrepeatable(failure))
+        return again
+
+    def _confirm(self, question: Question) -> bool:
+        """Ask one question of a fresh process, to its end. Return whether that failed."""
+        self.kill()
+        dialogue = self._live()
+        try:
+            dialogue.ask([question])
+            [(_, reply)] = dialogue.answers()
+            dialogue.stay_quiet()
+            dialogue.finish()
+        except Broken as broken:
+            self.kill()
+            self._lost += self._limits.case if broken.failure.kind == "hang" else 0.0
+            self._settle(question, broken.failure)
+            return True
+        self._dialogue = None
+        self._settle(question, reply)
+        return False
+
+    def _single(self, question: Question) -> bool:
+        """Ask one question with no other outstanding. Return whether one failed by itself."""
+        dialogue = self._live()
+        try:
+            dialogue.ask([question])
+            [(_, reply)] = dialogue.answers()
+        except Broken as broken:
+            return self._blame(dialogue, broken.failure)
+        self._settle(question, reply)
+        self._on_progress(len(self._outcomes))
+        return False
+
+    def _settle(self, question: Question, outcome: Outcome) -> None:
+        """Record an outcome; a later one replaces an earlier one."""
+        self._outcomes[question.id] = outcome
+        if isinstance(outcome, Failure):
+            self._worst = outcome
+            self._in_a_row += 1
+            self._on_progress(len(self._outcomes))
+        else:
+            self._in_a_row = 0
+
+    def _live(self) -> Dialogue:
+        """Return the running process, or a fresh one. Raises `GivenUp`."""
+        if self._dialogue is None:
+            began = time.monotonic()
+            self._dialogue = self._restart()
+            self._lost += time.monotonic() - began
+        return self._dialogue
+
+    def _restart(self) -> Dialogue:
+        if self._in_a_row >= self._limits.in_a_row:
+            raise GivenUp(f"{self._in_a_row} questions in a row had failed")
+        if self._lost > self._limits.lost:
+            raise GivenUp(f"{self._lost:.0f} s had gone into silence and restarts")
+        seen = ""
+        for _ in range(STARTS):
+            self._restarts += 1
+            try:
+                dialogue = Dialogue(self._command, self._limits, self._ids)
+            except Unusable as error:
+                seen = str(error)
+                continue
+            if dialogue.hello == self._hello:
+                return dialogue
+            dialogue.kill()
+            seen = "its hello was another one than at first"
+        raise GivenUp(f"{STARTS} restarts failed one after the other: {seen}")
+
+    def _end(self) -> None:
+        """Close the input of the last process, which has nothing more to say."""
+        dialogue = self._dialogue
+        if dialogue is None:
+            return
+        try:
+            note = dialogue.finish()
+        except Broken as broken:
+            if dialogue.last is not None:
+                self._blame(dialogue, broken.failure)
+            return
+        self._dialogue = None
+        if note:
+            self._notes.append(note)
+
+    def _abandon(self, reason: str) -> None:
+        """Give all that have no outcome the kind of the last failure, and say why."""
+        worst = f"the last failure was a {self._worst.kind}: {self._worst.detail}"
+        rest = Failure(self._worst.kind, f"not asked to the end, as {reason}; {worst}")
+        missing = [question for question in self._questions if question.id not in self._outcomes]
+        for question in missing:
+            self._outcomes[question.id] = rest
+        self._notes.append(f"given up, {len(missing)} questions without an answer: {reason}")
+
+
+def _unrepeatable(first: Failure) -> Failure:
+    detail = f"this did not come again when asked alone: {first.kind}: {first.detail}"
+    return Failure("unrepeatable", detail, first.line)

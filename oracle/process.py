@@ -1,0 +1,236 @@
+"""One live program: lines in, lines out, and no deadlock, whatever it does.
+
+Here: pipes, threads, time and death. Not here: what a line means (oracle/dialogue.py) and what to
+do after a failure (oracle/harness.py). Three threads pump the pipes, so that the owner never
+blocks on a program that does not read, does not write, or floods its standard error.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import queue
+import signal
+import subprocess
+import threading
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import IO, Literal
+
+Kind = Literal["crash", "hang", "bad-line", "wrong-id", "unrepeatable"]
+
+CHUNK = 1 << 16
+CHUNKS = 64
+"""At most CHUNKS * CHUNK bytes (4 MiB) of output wait for the owner; then the program waits."""
+TAIL = 4096
+"""How many of the last bytes of standard error are kept."""
+SLICE = 0.2
+"""How often, in seconds, a silent program is asked whether it still lives."""
+GRACE = 0.5
+"""Seconds for what follows a death or a closed input: the exit status, the last bytes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """What a program did instead of answering. `line` is the line at fault, cut, where one is."""
+
+    kind: Kind
+    detail: str
+    line: str = ""
+
+
+class Broken(Exception):
+    """The program has failed and can only be killed."""
+
+    def __init__(self, failure: Failure) -> None:
+        """Carry the failure."""
+        super().__init__(f"{failure.kind}: {failure.detail}")
+        self.failure = failure
+
+
+def shown(data: bytes | bytearray, most: int = 160) -> str:
+    """Return the beginning of some output as text."""
+    text = data[: most + 1].decode("utf-8", "replace").rstrip("\r\n")
+    return text if len(text) <= most else text[: most - 3] + "..."
+
+
+class Process:
+    """A running program, in a process group of its own.
+
+    `send` never blocks. `receive` returns within its time limit and holds bounded memory. After
+    `kill` neither the program nor a child of it that stayed in its group is left.
+    """
+
+    def __init__(self, command: Sequence[str], line: int) -> None:
+        """Start the program, whose lines have at most `line` bytes. `OSError` if it cannot be."""
+        self._line = line
+        self._tail = bytearray()
+        self._errors = bytearray()
+        self._deaf = False
+        self._gone = False
+        self._in: queue.Queue[bytes] = queue.Queue(CHUNKS)
+        self._out: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
+        self._popen = subprocess.Popen(
+            list(command),
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            bufsize=0,
+            start_new_session=True,
+        )
+        pumps = (self._write, self._popen.stdin), (self._read, self._popen.stdout)
+        self._threads = [
+            threading.Thread(target=pump, args=(pipe,), daemon=True)
+            for pump, pipe in (*pumps, (self._drain, self._popen.stderr))
+        ]
+        for thread in self._threads:
+            thread.start()
+
+    def send(self, data: bytes) -> None:
+        """Pass bytes on to the program, as soon as it reads them."""
+        self._out.put(data)
+
+    def close(self) -> None:
+        """End the program's input, after all that was sent."""
+        self._out.put(None)
+
+    def receive(self, seconds: float) -> list[bytes]:
+        """Return the whole lines that have come, one or more, newlines removed.
+
+        Waits at most `seconds` for the first. Raises `Broken` where the program ends (crash), is
+        silent (hang), or writes a line beyond the limit (bad-line).
+        """
+        deadline = time.monotonic() + seconds
+        while True:
+            if len(self._tail) > self._line:
+                raise Broken(self._too_long())
+            chunk = self._chunk(deadline)
+            if chunk is None:
+                raise Broken(self._hang(seconds))
+            if not chunk:
+                raise Broken(self._crash())
+            if lines := self._split(chunk):
+                return lines
+
+    def listen(self, seconds: float) -> bytes | None:
+        """Return the next output, whole lines or not; b"" at its end, None if none came in time."""
+        return self._chunk(time.monotonic() + seconds)
+
+    def leftover(self) -> bytes:
+        """Return the output that has come and is not a whole line yet."""
+        return bytes(self._tail)
+
+    def status(self) -> str:
+        """Return how the program ended, waiting a moment for it."""
+        try:
+            code = self._popen.wait(GRACE)
+        except subprocess.TimeoutExpired:
+            return "did not end"
+        if code >= 0:
+            return f"ended with exit status {code}"
+        try:
+            return f"was killed by {signal.Signals(-code).name}"
+        except ValueError:
+            return f"was killed by signal {-code}"
+
+    def errors(self) -> str:
+        """Return the last lines of standard error, or nothing."""
+        text = bytes(self._errors).decode("utf-8", "replace").strip()
+        return "\n".join(text.splitlines()[-10:])
+
+    def kill(self) -> None:
+        """Leave nothing behind: kill the group, reap the program, end the threads."""
+        self._signal()
+        self._out.put(None)
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self._popen.wait(10)
+        # A thread outlives this only where a child that left the group holds the pipe.
+        deadline = time.monotonic() + GRACE
+        while any(thread.is_alive() for thread in self._threads) and time.monotonic() < deadline:
+            with contextlib.suppress(queue.Empty):
+                self._in.get(timeout=0.005)
+
+    def _signal(self) -> None:
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            if os.name == "posix":
+                os.killpg(self._popen.pid, signal.SIGKILL)
+            else:
+                self._popen.kill()
+
+    def _chunk(self, deadline: float) -> bytes | None:
+        """Return the next bytes; b"" at the end, also where a child holds the pipe open."""
+        while True:
+            wait = min(SLICE, deadline - time.monotonic())
+            try:
+                return self._in.get(timeout=max(0.0, wait))
+            except queue.Empty:
+                if self._gone:
+                    return b""
+                self._gone = self._popen.poll() is not None
+                if not self._gone and time.monotonic() >= deadline:
+                    return None
+
+    def _split(self, chunk: bytes) -> list[bytes]:
+        """Return the lines that a chunk completes, up to the first that is too long."""
+        if b"\n" not in chunk:
+            self._tail += chunk
+            return []
+        first, *lines = chunk.split(b"\n")
+        lines.insert(0, bytes(self._tail) + first)
+        self._tail = bytearray(lines.pop())
+        for i, line in enumerate(lines):
+            if len(line) > self._line:
+                self._tail = bytearray(line)
+                return lines[:i]
+        return lines
+
+    def _too_long(self) -> Failure:
+        begin = shown(self._tail)
+        return Failure("bad-line", f"a line has more than {self._line} bytes: {begin!r}", begin)
+
+    def _crash(self) -> Failure:
+        self._threads[2].join(GRACE)
+        detail = self.status().replace("did not end", "closed its standard output")
+        if self._tail:
+            detail += f", in the middle of a line: {shown(self._tail)!r}"
+        if errors := self.errors():
+            detail += f"; standard error: {errors}"
+        return Failure("crash", detail, shown(self._tail))
+
+    def _hang(self, seconds: float) -> Failure:
+        """Say what the silence looks like. Closing the input makes a full buffer show itself."""
+        detail = f"no answer for {seconds:g} s"
+        if self._tail:
+            detail += f", but {shown(self._tail)!r} without a newline"
+        if self._deaf:
+            detail += ", and it has closed its standard input"
+        self.close()
+        late = self.listen(GRACE) or b""
+        if late:
+            detail += "; it wrote only when its input was closed: output is not flushed"
+        if errors := self.errors():
+            detail += f"; standard error: {errors}"
+        return Failure("hang", detail, shown(late or self._tail))
+
+    def _read(self, pipe: IO[bytes]) -> None:
+        with pipe, contextlib.suppress(OSError):
+            while chunk := os.read(pipe.fileno(), CHUNK):
+                self._in.put(chunk)
+        self._in.put(b"")
+
+    def _drain(self, pipe: IO[bytes]) -> None:
+        with pipe, contextlib.suppress(OSError):
+            while chunk := os.read(pipe.fileno(), CHUNK):
+                self._errors = (self._errors + chunk)[-TAIL:]
+
+    def _write(self, pipe: IO[bytes]) -> None:
+        try:
+            while (data := self._out.get()) is not None:
+                rest = memoryview(data)
+                while rest:
+                    rest = rest[os.write(pipe.fileno(), rest) :]
+        except OSError:
+            self._deaf = True
+        with contextlib.suppress(OSError):
+            pipe.close()
