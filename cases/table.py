@@ -65,7 +65,7 @@ class Table(tuple[Row, ...]):
 
     def __init__(self, *rows: Row) -> None:
         """Start with nothing found to follow from signs."""
-        self._steps: dict[Signs, str | Row] = {}
+        self._first = _Step(self, {})
 
     def decide(self, sign: Callable[[str], int]) -> tuple[Row, Signs]:
         """Return the row whose condition holds, and the signs that decided it, in the order asked.
@@ -73,26 +73,40 @@ class Table(tuple[Row, ...]):
         `sign` gives the sign (-1, 0, 1) of a quantity, and is asked for no more than is needed.
         Signs that contradict the table's axioms may reach no row: `ArithmeticError`.
         """
-        known: Signs = ()
-        while True:
-            step = self._steps.get(known)
-            if step is None:
-                step = self._steps[known] = self._next(dict(known))
-            if isinstance(step, Row):
-                return step, known
-            known = (*known, (step, sign(step)))
+        step, known = self._first, []
+        while step.row is None:
+            found = sign(step.quantity)
+            known.append((step.quantity, found))
+            step = step.after.get(found) or step.then(self, found)
+        return step.row, tuple(known)
 
-    def _next(self, known: dict[str, int]) -> str | Row:
-        """Return the first row that holds, or the quantity that it takes to tell."""
-        for row in self:
+
+class _Step:
+    """What follows from some signs: the row that holds, or the quantity that it takes to tell."""
+
+    __slots__ = ("after", "known", "quantity", "row")
+
+    def __init__(self, rows: tuple[Row, ...], known: dict[str, int]) -> None:
+        self.known = known
+        self.row: Row | None = None
+        self.quantity = ""
+        self.after: dict[int, _Step] = {}
+        for row in rows:
             for quantity, relation in row.condition:
                 if quantity not in known:
-                    return quantity
+                    self.quantity = quantity
+                    return
                 if known[quantity] not in HOLDS[relation]:
                     break
             else:
-                return row
+                self.row = row
+                return
         raise ArithmeticError(f"no row holds for {known}")
+
+    def then(self, rows: tuple[Row, ...], sign: int) -> _Step:
+        """Return what follows when the quantity turns out to have this sign, and remember it."""
+        self.after[sign] = _Step(rows, {**self.known, self.quantity: sign})
+        return self.after[sign]
 
 
 PROBLEM_1 = Table(

@@ -8,7 +8,7 @@ units of 2^(L - T): `surd` puts that power back, so that endpoints stand for the
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from cases.model import HalfSpace, Leaf, Ray, Slab, Solid, Sphere, Vector, leaves
 from oracle.surd import Surd
@@ -56,8 +56,7 @@ def lengths(leaf: Leaf) -> tuple[float, ...]:
     return (*leaf.p, *leaf.q, leaf.radius)
 
 
-@dataclass(frozen=True, slots=True)
-class Grid:
+class Grid(NamedTuple):
     """Units of 2^-length for lengths, 2^-speed for the direction; u and v are the ray in them.
 
     `integers` has each length of the scene in the grid's unit, so that what serves several faces

@@ -17,7 +17,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from cases.model import Cylinder, HalfSpace, InfiniteCylinder, Slab, Sphere
-from oracle.grid import Grid, cross, dot, normal, sub
+from oracle.grid import Grid, IntVector, cross, dot, normal, sub
 from oracle.surd import Surd, sign
 
 
@@ -66,21 +66,36 @@ def half_space(solid: HalfSpace, grid: Grid) -> Plane:
 
 def caps(solid: Slab | Cylinder, grid: Grid) -> tuple[Plane, Plane]:
     """Return the conditions of the planes through p and through q."""
-    p, q = grid.point(solid.p), grid.point(solid.q)
-    w = sub(q, p)
-    vw, square = dot(grid.v, w), dot(w, w)
-    return (
-        Plane(-dot(sub(grid.u, p), w), -vw, square),
-        Plane(dot(sub(grid.u, q), w), vw, square),
-    )
+    y, w = _axis(solid, grid)
+    return _caps(y, w, dot(w, w), grid)
 
 
 def wall(solid: InfiniteCylinder | Cylinder, grid: Grid) -> Quadric:
     """Return the condition of the curved face, without its end planes."""
+    y, w = _axis(solid, grid)
+    return _wall(y, w, dot(w, w), grid.scalar(solid.radius), grid)
+
+
+def capped(solid: Cylinder, grid: Grid) -> tuple[Quadric, Plane, Plane]:
+    """Return the conditions of the wall and of the planes through p and through q."""
+    y, w = _axis(solid, grid)
+    square = dot(w, w)
+    return (_wall(y, w, square, grid.scalar(solid.radius), grid), *_caps(y, w, square, grid))
+
+
+def _axis(solid: Slab | InfiniteCylinder | Cylinder, grid: Grid) -> tuple[IntVector, IntVector]:
     p = grid.point(solid.p)
-    w = sub(grid.point(solid.q), p)
-    vw, yw = cross(grid.v, w), cross(sub(grid.u, p), w)
-    square, r = dot(w, w), grid.scalar(solid.radius)
+    return sub(grid.u, p), sub(grid.point(solid.q), p)
+
+
+def _caps(y: IntVector, w: IntVector, square: int, grid: Grid) -> tuple[Plane, Plane]:
+    """Return both planes; (u - q).w = y.w - W."""
+    yw, vw = dot(y, w), dot(grid.v, w)
+    return Plane(-yw, -vw, square), Plane(yw - square, vw, square)
+
+
+def _wall(y: IntVector, w: IntVector, square: int, r: int, grid: Grid) -> Quadric:
+    vw, yw = cross(grid.v, w), cross(y, w)
     return Quadric(dot(vw, vw), dot(vw, yw), dot(yw, yw) - r * r * square, square)
 
 

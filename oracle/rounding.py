@@ -63,14 +63,13 @@ def enclose(v: Surd, fmt: Format) -> Rounded:
     """
     if not v.finite:
         return Rounded(inf, inf, inf)
-    sign = v.sign()
-    if sign < 0:
-        mirrored = enclose(Surd(-v.x, -v.y, v.d, v.z), fmt)
-        return Rounded(-mirrored.up, -mirrored.nearest, -mirrored.down)
-    if sign == 0:
-        return Rounded(0.0, 0.0, 0.0)
     shift = -max(exponent(v) - fmt.precision - 6, fmt.least - 2)
     floor, exact = floor_shifted(v, shift)
+    if floor < 0:
+        mirrored = enclose(Surd(-v.x, -v.y, v.d, v.z), fmt)
+        return Rounded(-mirrored.up, -mirrored.nearest, -mirrored.down)
+    if exact and not floor:
+        return Rounded(0.0, 0.0, 0.0)
     drop = max(floor.bit_length() - fmt.precision, fmt.least + shift)
     kept = floor >> drop
     rest, half = floor - (kept << drop), 1 << (drop - 1)

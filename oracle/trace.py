@@ -40,7 +40,7 @@ from oracle.intervals import (
     subtract,
     union,
 )
-from oracle.leaf import Plane, Quadric, ball, caps, half_space, plane_signs, wall
+from oracle.leaf import Plane, Quadric, ball, capped, caps, half_space, plane_signs, wall
 from oracle.surd import INFINITY, ZERO, Surd, sign
 
 
@@ -118,9 +118,10 @@ def solve_leaf(leaf: Leaf, grid: Grid, path: str, decisions: list[Decision]) -> 
         case Slab():
             return _slab(*caps(leaf, grid), grid, path, decisions)
         case Cylinder():
-            one = _round(wall(leaf, grid), grid, path, decisions)
-            two = _slab(*caps(leaf, grid), grid, path, decisions)
-            return _capped(one, two, path, decisions)
+            face, at_p, at_q = capped(leaf, grid)
+            one = _round(face, grid, path, decisions)
+            two = _slab(at_p, at_q, grid, path, decisions)
+            return _both(one, two, path, decisions)
 
 
 def _round(face: Quadric, grid: Grid, path: str, decisions: list[Decision]) -> Intervals:
@@ -187,7 +188,7 @@ def _slab(
     return NOTHING
 
 
-def _capped(one: Intervals, two: Intervals, path: str, decisions: list[Decision]) -> Intervals:
+def _both(one: Intervals, two: Intervals, path: str, decisions: list[Decision]) -> Intervals:
     """Problem 3: the intersection of at most one pair with at most one pair."""
     signs = {"pairs_1": len(one), "pairs_2": len(two)}
     common: Intervals = NOTHING
