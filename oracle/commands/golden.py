@@ -1,0 +1,74 @@
+"""`raycert golden`: regenerate the golden files, or check them byte for byte."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+import click
+
+FOLDER = click.option(
+    "--golden",
+    "folder",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Directory of the golden files  [default: the installed corpus]",
+)
+
+
+@click.group()
+def golden() -> None:
+    """Regenerate or check the golden files: every row, computed anew from its family."""
+
+
+@golden.command(epilog="In a checkout: raycert golden write --golden cases/golden")
+@FOLDER
+def write(folder: Path | None) -> None:
+    """Compute every row and write the files and the manifest; nothing is written before all is."""
+    from cases.families.catalog import FAMILIES
+    from oracle.golden import Contradiction
+    from oracle.golden import write as write_files
+
+    target = _folder(folder)
+    try:
+        with _progress("computing") as progress:
+            files = write_files(target, FAMILIES, progress)
+    except Contradiction as error:
+        raise click.ClickException(f"nothing was written. {error}") from None
+    rows = sum(data.count(b"\n") for data in files.values())
+    click.echo(f"{rows} rows in {len(files)} files written to {target}")
+
+
+@golden.command()
+@FOLDER
+def check(folder: Path | None) -> None:
+    """Compute every row and compare bytes and values with the files; exit 1 on any difference."""
+    from cases.families.catalog import FAMILIES
+    from oracle.golden import check as check_files
+
+    target = _folder(folder)
+    with _progress("computing") as progress:
+        drifts = check_files(target, FAMILIES, progress)
+    for drift in drifts[:20]:
+        click.echo(f"{drift.file}: {drift.what}")
+    if len(drifts) > 20:
+        click.echo(f"and {len(drifts) - 20} more")
+    if drifts:
+        click.echo("the files differ from what the oracle computes: raycert golden write", err=True)
+        raise SystemExit(1)
+    click.echo(f"every byte in {target} is as computed")
+
+
+def _folder(folder: Path | None) -> Path:
+    from cases.corpus import GOLDEN
+
+    return GOLDEN if folder is None else folder
+
+
+@contextmanager
+def _progress(verb: str) -> Iterator[Callable[[str], None]]:
+    """Show how many rows are done, on a terminal only."""
+    from oracle.commands.progress import counting
+
+    with counting(verb) as advance:
+        yield lambda _: advance()
