@@ -1,0 +1,212 @@
+"""`raycert export`: the golden rows as flat TSV, for readers with no JSON or hex-float parser."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from oracle.commands.listing import (
+    TIER_NAMES,
+    BadInput,
+    golden_option,
+    precision_option,
+    read,
+    unknown,
+)
+
+if TYPE_CHECKING:
+    from cases.accept import Accept
+    from cases.corpus import Corpus
+    from cases.formats import Format
+    from cases.model import Ray, Solid
+    from cases.row import GoldenRow
+
+COLUMNS = (
+    "id",
+    "tier",
+    "type",
+    "solid",
+    "ray",
+    "expected",
+    "decisive",
+    "sound_inner",
+    "sound_outer",
+    "sound_most",
+    "stable_inner",
+    "stable_outer",
+    "stable_most",
+    "touches",
+)
+
+GRAMMAR = """\
+Lines that begin with # are comments. Every other line is a row: tabs between
+columns, blanks between tokens, no column empty. Each list begins with its length,
+so that a row can be read token by token, whatever separates them (scanf %s).
+
+number    {digits} hex digits: the {name} bit pattern, most
+          significant first; {inf} is infinity
+pairs     N, then N times: enter leave
+type      and solid, together in prefix notation:
+            half_space  point normal               6 numbers
+            sphere  center radius                  4 numbers
+            slab  p q                              6 numbers
+            infinite_cylinder  p q radius          7 numbers
+            cylinder  p q radius                   7 numbers
+            union, intersection, difference        N, then N times: type solid
+ray       origin direction                         6 numbers
+expected  pairs: the exact list, every end rounded to nearest
+decisive  N, then N levels that the row decides: sound stable faithful exact
+inner     pairs      outer   pairs      most   N, then a count for each outer pair
+touches   N, then a word for each exact interval: none tangent wall cap rim start
+
+An answer, a list of pairs, is well-formed if 0 <= enter <= leave < the next enter,
+no number is NaN and no enter infinite (but where one of expected is); and, on the
+lattice tier, if its last leave is infinite just where that of expected is.
+
+It is sound (stable) if it is well-formed and
+  each pair of the answer lies in a pair of sound_outer (stable_outer),
+  each pair of sound_inner lies in a pair of the answer,
+  each pair of sound_outer holds at most its sound_most pairs of the answer.
+It is exact if it is expected. A level counts the rows that are decisive for it,
+and none of the range tier.
+"""
+
+
+EXAMPLES = """\b
+Examples:
+  raycert export --out golden.tsv
+  raycert export --precision binary32 --solids cylinder --tier lattice
+"""
+
+
+def _help() -> str:
+    """Return examples and grammar as blocks that --help leaves as they are."""
+    names = {"digits": "16 (8)", "name": "binary64 (binary32)", "inf": "7ff0000000000000"}
+    blocks = GRAMMAR.format(**names).strip().split("\n\n")
+    return "\n\n".join((EXAMPLES, *(f"\b\n{block}" for block in blocks)))
+
+
+@click.command(epilog=_help())
+@click.option(
+    "--out",
+    type=click.Path(dir_okay=False),
+    default="-",
+    show_default=True,
+    help="File to write; - is standard output.",
+)
+@click.option("--family", "families", multiple=True, help="Only this family (repeatable).")
+@click.option("--tier", "tiers", multiple=True, type=click.Choice(TIER_NAMES), help="Only this.")
+@click.option(
+    "--solids", help="Only rows made of these types alone, between commas: slab,cylinder."
+)
+@precision_option
+@golden_option
+def export(
+    out: str,
+    families: tuple[str, ...],
+    tiers: tuple[str, ...],
+    solids: str | None,
+    precision: str,
+    golden: Path | None,
+) -> None:
+    """Write golden rows as flat TSV with bit patterns: no JSON, no decimal to parse."""
+    corpus = read(precision, golden)
+    chosen = list(_chosen(corpus, families, tiers, solids))
+    if not chosen:
+        raise BadInput("no row is such; see: raycert list --families")
+    data = "".join(f"{line}\n" for line in lines(chosen, corpus)).encode("ascii")
+    if out == "-":
+        click.echo(data, nl=False)
+        return
+    from cases.corpus import write_whole
+
+    try:
+        write_whole(Path(out), data)
+    except OSError as error:
+        raise BadInput(f"--out {out}: {error.strerror}") from None
+    click.echo(f"{len(chosen)} rows written to {out}", err=True)
+
+
+def _chosen(
+    corpus: Corpus, families: tuple[str, ...], tiers: tuple[str, ...], solids: str | None
+) -> Iterator[GoldenRow]:
+    from cases.model import SOLIDS
+    from oracle.selection import types
+
+    allowed = [name.strip() for name in solids.split(",")] if solids else list(SOLIDS)
+    for name in allowed:
+        if name not in SOLIDS:
+            unknown("solid", name, SOLIDS)
+    for name in families:
+        if name not in (there := {row.family for row in corpus.rows}):
+            unknown("family", name, there)
+    for row in corpus.rows:
+        if (families and row.family not in families) or (tiers and row.tier not in tiers):
+            continue
+        if types(row.solid) <= set(allowed):
+            yield row
+
+
+def lines(rows: list[GoldenRow], corpus: Corpus) -> Iterator[str]:
+    """Yield the lines of an export, its documentation first."""
+    fmt = corpus.format
+    yield f"# raycert golden rows, {fmt.name}, corpus {corpus.version}, data CC0"
+    yield f"# manifest sha256 {corpus.sha256}"
+    grammar = GRAMMAR.format(digits=fmt.digits, name=fmt.name, inf=fmt.bits(float("inf")))
+    for line in grammar.splitlines():
+        yield f"# {line}".rstrip()
+    yield "#"
+    yield "# " + "\t".join(COLUMNS)
+    for row in rows:
+        yield "\t".join(cells(row, fmt))
+
+
+def cells(row: GoldenRow, fmt: Format) -> Iterator[str]:
+    """Yield the columns of a row."""
+    kind, _, solid = _solid(row.solid, fmt).partition(" ")
+    yield from (row.id, row.tier, kind, solid, _ray(row.ray, fmt))
+    yield _pairs(row.expected, fmt)
+    yield _words(row.decisive)
+    for level in ("sound", "stable"):
+        yield from _accept(row.accept[level], fmt)
+    yield _words(tuple(span.touch or "none" for span in row.intervals))
+
+
+def _solid(solid: Solid, fmt: Format) -> str:
+    """Return a solid in prefix notation."""
+    from dataclasses import fields
+
+    from cases.model import Tree, type_of
+
+    words = [type_of(solid)]
+    if isinstance(solid, Tree):
+        return " ".join((*words, str(len(solid.of)), *(_solid(part, fmt) for part in solid.of)))
+    for field in fields(solid):
+        value = getattr(solid, field.name)
+        words.append(_numbers(value if isinstance(value, tuple) else (value,), fmt))
+    return " ".join(words)
+
+
+def _ray(ray: Ray, fmt: Format) -> str:
+    return _numbers((*ray.origin, *ray.direction), fmt)
+
+
+def _numbers(values: tuple[float, ...], fmt: Format) -> str:
+    return " ".join(fmt.bits(value) for value in values)
+
+
+def _pairs(pairs: tuple[tuple[float, float], ...], fmt: Format) -> str:
+    return " ".join((str(len(pairs)), *(_numbers(pair, fmt) for pair in pairs)))
+
+
+def _words(words: tuple[str, ...]) -> str:
+    return " ".join((str(len(words)), *words))
+
+
+def _accept(accept: Accept, fmt: Format) -> Iterator[str]:
+    yield _pairs(accept.inner, fmt)
+    yield _pairs(accept.outer, fmt)
+    yield _words(tuple(map(str, accept.most)))

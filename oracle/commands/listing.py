@@ -1,0 +1,293 @@
+"""`raycert list` and `raycert show`: find golden rows, and read them."""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+import click
+
+if TYPE_CHECKING:
+    from cases.corpus import Corpus
+    from cases.row import GoldenRow
+
+TIER_NAMES = ("lattice", "generic", "stiff", "range")
+LEVEL_NAMES = ("sound", "stable", "faithful", "exact")
+PRECISIONS = ("binary64", "binary32")
+FIELDS = ("family", "tier", "flag", "row", "solid", "source", "touch", "decisive")
+
+LIST_EXAMPLES = """\b
+Examples:
+  raycert list --families                        what is tested, and why
+  raycert list --row through --row BG --row m=n  one cell of the case table
+  raycert list --flag tangent --touch rim
+  raycert list --not-decisive stable --count
+  raycert list --count tier --family tilt
+
+\b
+Table rows are the seed's:
+  Problem 1   along-inside along-outside miss behind from-inside through
+  Problem 2   AE BE AF AH BG DE CF; of one plane A B C D
+  Problem 3   neither no-1 no-2 apart meet, and a>c a=c a<c b>d ... m<n m=n m>n
+"""
+SHOW_EXAMPLES = """\b
+Examples:
+  raycert show behind/across-just-past
+  raycert show behind/across-just-past --json | jq .accept
+  raycert explain behind/across-just-past            the same case, derived
+"""
+
+golden_option = click.option(
+    "--golden",
+    type=click.Path(exists=True, file_okay=False, path_type=Path),
+    help="Golden files to use instead of the installed ones.",
+)
+precision_option = click.option(
+    "--precision",
+    type=click.Choice(PRECISIONS),
+    default="binary64",
+    show_default=True,
+    help="Number format of the rows.",
+)
+
+
+class BadInput(click.ClickException):
+    """An input that is refused: exit 2, with what to do."""
+
+    exit_code = 2
+
+
+def read(precision: str, golden: Path | None) -> Corpus:
+    """Return the rows of a precision, or stop with what is wrong with the files."""
+    from cases.corpus import GOLDEN, BadCorpus, read_corpus
+
+    try:
+        return read_corpus(precision, golden or GOLDEN)
+    except BadCorpus as error:
+        raise BadInput(str(error)) from None
+
+
+def find(corpus: Corpus, id: str) -> GoldenRow:
+    """Return the row with an id, or stop with the ids that come near."""
+    row = corpus.row(id)
+    if row is None:
+        family = id.partition("/")[0]
+        families = {row.family for row in corpus.rows}
+        hint = f"--family {family}" if family in families else "--families"
+        known = (row.id for row in corpus.rows)
+        unknown("row", id, known, f"in {corpus.precision}", f"see: raycert list {hint}")
+    return row
+
+
+def unknown(
+    what: str, value: str, known: Iterable[str], where: str = "", hint: str = ""
+) -> NoReturn:
+    """Stop: no such value, and which come near."""
+    from difflib import get_close_matches
+
+    names = sorted(set(known))
+    near = [name for name in names if value and value in name][:5]
+    near = near or get_close_matches(value, names, n=5, cutoff=0.5)
+    if near:
+        hint = f"near: {', '.join(near)}"
+    raise BadInput(
+        f"no {what} {value!r} {where}".rstrip() + f"; {hint or 'known: ' + ', '.join(names)}"
+    )
+
+
+@click.command(name="list", epilog=LIST_EXAMPLES)
+@click.option("--family", "families", multiple=True, help="Of this family (repeat: any of them).")
+@click.option("--tier", "tiers", multiple=True, type=click.Choice(TIER_NAMES), help="Of this tier.")
+@click.option("--flag", "flags", multiple=True, help="With this flag (repeat: all of them).")
+@click.option("--row", "rows", multiple=True, help="Taking this table row (repeat: all of them).")
+@click.option("--solid", "solids", multiple=True, help="Of this solid type.")
+@click.option("--source", help="With this text in the source, such as geant4.")
+@click.option("--touch", help="With a touch of this kind: tangent, wall, cap, rim, start.")
+@click.option("--not-decisive", type=click.Choice(LEVEL_NAMES), help="Not decisive for this level.")
+@click.option(
+    "--count",
+    is_flag=False,
+    flag_value="family",
+    type=click.Choice(FIELDS),
+    help="Count the rows by a field (family if none is named) instead of listing them.",
+)
+@click.option("--families", "reasons", is_flag=True, help="List the families and their reasons.")
+@click.option("--flags", "legend", is_flag=True, help="Print the legend of the flags.")
+@precision_option
+@golden_option
+def list_cases(precision: str, golden: Path | None, **options: Any) -> None:
+    """List golden rows: id, tier and reason, one a line; tabs between them when piped."""
+    if options["legend"]:
+        _print_legend()
+        return
+    corpus = read(precision, golden)
+    _check(options, corpus)
+    chosen = [row for row in corpus.rows if _matches(row, options)]
+    if options["reasons"]:
+        _print_families(chosen)
+    elif options["count"]:
+        _print_counts(chosen, options["count"])
+    else:
+        _print_rows(chosen)
+    if not chosen:
+        click.echo("no row is such", err=True)
+
+
+def values(row: GoldenRow, field: str) -> tuple[str, ...]:
+    """Return what a row has in a field; row names without the path in a tree."""
+    from cases.model import type_of
+
+    match field:
+        case "flag":
+            return row.flags
+        case "row":
+            return tuple(dict.fromkeys(name.rpartition(":")[2] for name in row.rows))
+        case "solid":
+            return (type_of(row.solid),)
+        case "touch":
+            return tuple(dict.fromkeys(span.touch or "none" for span in row.intervals))
+        case "decisive":
+            return row.decisive
+    return (str(getattr(row, field)),)
+
+
+def _matches(row: GoldenRow, options: dict[str, Any]) -> bool:
+    any_of = (("family", "families"), ("tier", "tiers"), ("solid", "solids"))
+    all_of = (("flag", "flags"), ("row", "rows"))
+    source: str = options["source"] or ""
+    touch, level = options["touch"], options["not_decisive"]
+    return (
+        all(not options[o] or set(values(row, f)) & set(options[o]) for f, o in any_of)
+        and all(set(options[o]) <= set(values(row, f)) for f, o in all_of)
+        and source.lower() in row.source.lower()
+        and (not touch or touch in values(row, "touch"))
+        and (not level or level not in row.decisive)
+    )
+
+
+def _check(options: dict[str, Any], corpus: Corpus) -> None:
+    """Stop at a name that no row of the corpus has."""
+    from cases.flags import FLAGS
+    from cases.model import SOLIDS
+    from cases.protocol import TOUCHES
+    from cases.table import HALF_SPACE, PROBLEM_1, PROBLEM_2, PROBLEM_3
+
+    tables = (*PROBLEM_1, *PROBLEM_2, *PROBLEM_3, *HALF_SPACE)
+    signs = {f"{pair[0]}{s}{pair[1]}" for pair in ("ac", "bd", "mn") for s in "<=>"}
+    families = {row.family for row in corpus.rows}
+    names: list[tuple[str, Iterable[str], Iterable[str]]] = [
+        ("family", options["families"], families),
+        ("flag", options["flags"], FLAGS),
+        ("row", options["rows"], {row.name for row in tables} | signs),
+        ("solid", options["solids"], SOLIDS),
+        ("touch", [options["touch"]] if options["touch"] else [], (*TOUCHES, "none")),
+    ]
+    for what, given, known in names:
+        for value in given:
+            if value not in known:
+                unknown(what, value, known)
+
+
+def _screen() -> int | None:
+    """Return the width of the terminal that is written to; None for a file or a pipe."""
+    from shutil import get_terminal_size
+
+    return get_terminal_size().columns if sys.stdout.isatty() else None
+
+
+def _print_rows(rows: list[GoldenRow]) -> None:
+    width = _screen()
+    size = min(max((len(row.id) for row in rows), default=0), 48)
+    for row in rows:
+        if width is None:
+            click.echo(f"{row.id}\t{row.tier}\t{row.why}")
+        else:
+            line = f"{row.id:{size}}  {row.tier:7}  {row.why}"
+            click.echo(line if len(line) <= width else line[: width - 3] + "...")
+    if width is not None:
+        click.echo(f"{len(rows)} rows; one in full: raycert show ID", err=True)
+
+
+def _print_counts(rows: list[GoldenRow], field: str) -> None:
+    counts = Counter(value for row in rows for value in values(row, field))
+    size = max((len(name) for name in counts), default=0)
+    for name, count in sorted(counts.items(), key=lambda item: (-item[1], item[0])):
+        click.echo(f"{name:{size}}  {count:6}")
+    click.echo(f"{'rows':{size}}  {len(rows):6}")
+
+
+def _print_families(rows: list[GoldenRow]) -> None:
+    """Print each family with its rows per tier and its reason, where the tool knows the family."""
+    from textwrap import wrap
+
+    from cases.families.catalog import FAMILIES
+
+    reasons = {family.name: family.reason for family in FAMILIES}
+    width = _screen()
+    for name in dict.fromkeys(row.family for row in rows):
+        tiers = Counter[str](row.tier for row in rows if row.family == name)
+        counts = ", ".join(f"{tiers[tier]} {tier}" for tier in TIER_NAMES if tiers[tier])
+        reason = reasons.get(name, "")
+        if width is None:
+            click.echo(f"{name}\t{counts}\t{reason}")
+            continue
+        click.echo(f"{click.style(name, bold=True)}  {counts}")
+        for line in wrap(reason, width - 4):
+            click.echo(f"    {line}")
+
+
+def _print_legend() -> None:
+    from textwrap import wrap
+
+    from cases.flags import FLAGS
+
+    width = _screen() or 100
+    for flag in FLAGS.values():
+        click.secho(flag.name, bold=True)
+        for text in (flag.trouble, flag.effect, f"[{flag.reference}]"):
+            for line in wrap(text, width - 4):
+                click.echo(f"    {line}")
+
+
+@click.command(epilog=SHOW_EXAMPLES)
+@click.argument("ids", nargs=-1, required=True)
+@click.option("--json", "raw", is_flag=True, help="The lines of the golden files, as they are.")
+@click.option("--full", is_flag=True, help="Long integers in full.")
+@precision_option
+@golden_option
+def show(ids: tuple[str, ...], raw: bool, full: bool, precision: str, golden: Path | None) -> None:
+    """Show golden rows: the case, its exact answer, and the lists that accept."""
+    corpus = read(precision, golden)
+    rows = [find(corpus, id) for id in ids]
+    if raw:
+        from cases.corpus import encode_rows
+
+        click.echo(encode_rows(rows, corpus.format), nl=False)
+        return
+    _print_in_full(rows, corpus, full)
+
+
+def _print_in_full(rows: list[GoldenRow], corpus: Corpus, full: bool) -> None:
+    from rich.console import Console
+    from rich.text import Text
+
+    from oracle.derivation_row import row_steps
+    from oracle.derivation_text import case_lines, put, step_lines
+
+    console = Console()
+    width = 10**9 if full else console.width
+
+    def lines() -> Iterator[Text]:
+        for i, row in enumerate(rows):
+            if i:
+                yield from (Text(), Text())
+            yield from case_lines(row, corpus.format, width)
+            for step in row_steps(row, corpus.format):
+                yield Text()
+                yield Text(step.heading, "bold")
+                yield from step_lines(step, width, full)
+
+    put(console, lines())
