@@ -1,13 +1,15 @@
 """A golden row: a case with its exact answer, and its one JSON form.
 
 Every real is a hex-float string, infinity is "inf", keys stand in a fixed order. Reading refuses
-what is not such a row with `Refused`, naming the field.
+with `Refused`, naming the field, whatever writing would not give back.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import isnan
+from types import UnionType
 from typing import Any, TypeVar
 
 from cases.accept import Accept, Numbers
@@ -17,6 +19,8 @@ from cases.forms import Json, read_ray, read_solid, write_ray, write_solid
 from cases.model import Ray, Refused, Solid
 
 T = TypeVar("T")
+ACCEPTED = ("sound", "stable")
+"""The levels that a row holds lists of numbers for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -130,30 +134,29 @@ def _write_numbers(pairs: Numbers) -> list[list[str]]:
 def read_row(form: object, fmt: Format) -> GoldenRow:
     """Return the row that a JSON object describes, or refuse it."""
     get = _Fields(form, "row")
-    solid = read_solid(get("solid", dict), "solid", "hex", fmt)
-    ray = read_ray(get("ray", dict), "ray", "hex", fmt)
     tier = get("tier", str)
     if tier not in TIERS:
         raise Refused("row.tier", f"is not one of {', '.join(TIERS)}: {tier!r:.40}")
-    condition = get.form.get("condition")
-    return GoldenRow(
+    accept = _Fields(get("accept", dict), "row.accept")
+    row = GoldenRow(
         id=get("id", str),
         why=get("why", str),
-        flags=tuple(get("flags", list)),
+        flags=get.many("flags", str),
         tier=tier,
         source=get("source", str),
-        solid=solid,
-        ray=ray,
-        rows=tuple(get("rows", list)),
-        condition=condition,
-        decisive=tuple(get("decisive", list)),
+        solid=read_solid(get("solid", dict), "solid", "hex", fmt),
+        ray=read_ray(get("ray", dict), "ray", "hex", fmt),
+        rows=get.many("rows", str),
+        condition=get("condition", int | None),
+        decisive=get.many("decisive", str),
         intervals=get.each("intervals", _read_span),
-        expected=_read_numbers(get("expected", list), "row.expected"),
-        accept={
-            level: _read_accept(accept, f"row.accept.{level}")
-            for level, accept in get("accept", dict).items()
-        },
+        expected=get.numbers("expected"),
+        accept={level: _read_accept(accept.inside(level)) for level in ACCEPTED},
     )
+    for name, value in (get.form | write_row(row, fmt)).items():
+        if get.form[name] != value or name not in GoldenRow.__slots__:
+            raise Refused(f"row.{name}", "is not as a row is written")
+    return row
 
 
 class _Fields:
@@ -165,58 +168,87 @@ class _Fields:
         self.form = form
         self.path = path
 
-    def __call__(self, name: str, kind: type) -> Any:
+    def __call__(self, name: str, kind: type | UnionType) -> Any:
         """Return one field."""
-        value = self.form.get(name)
-        if not isinstance(value, kind):
-            problem = "is missing" if name not in self.form else f"is not a {kind.__name__}"
-            raise Refused(f"{self.path}.{name}", problem)
+        if name not in self.form:
+            raise Refused(f"{self.path}.{name}", "is missing")
+        value = self.form[name]
+        if not isinstance(value, kind) or isinstance(value, bool):
+            raise Refused(f"{self.path}.{name}", f"is not a {getattr(kind, '__name__', kind)}")
         return value
+
+    def inside(self, name: str) -> _Fields:
+        """Return the fields of a field that is an object."""
+        return _Fields(self(name, dict), f"{self.path}.{name}")
+
+    def many(self, name: str, kind: type[T]) -> tuple[T, ...]:
+        """Return the items of a list, all of one type."""
+        items = self(name, list)
+        if not all(isinstance(x, kind) and not isinstance(x, bool) for x in items):
+            raise Refused(f"{self.path}.{name}", f"is not a list of {kind.__name__}")
+        return tuple(items)
 
     def each(self, name: str, read: Callable[[_Fields], T]) -> tuple[T, ...]:
         """Return the items of a list of objects."""
         items = self(name, list)
         return tuple(read(_Fields(x, f"{self.path}.{name}[{i}]")) for i, x in enumerate(items))
 
+    def real(self, name: str) -> float:
+        """Return a number."""
+        return _number(self(name, str), f"{self.path}.{name}")
+
+    def numbers(self, name: str) -> Numbers:
+        """Return a list of pairs of numbers."""
+        path = f"{self.path}.{name}"
+        pairs = self(name, list)
+        if not all(isinstance(pair, list) and len(pair) == 2 for pair in pairs):
+            raise Refused(path, "is not a list of pairs")
+        return tuple((_number(a, path), _number(b, path)) for a, b in pairs)
+
+
+def _number(text: object, path: str) -> float:
+    try:
+        number = parse(text, "hex")
+    except (ValueError, OverflowError) as error:
+        raise Refused(path, str(error)) from None
+    if isnan(number):
+        raise Refused(path, "is NaN")
+    return number
+
 
 def _read_span(get: _Fields) -> Span:
-    enter, leave = (
-        _read_end(_Fields(get(name, dict), f"{get.path}.{name}")) for name in ("enter", "leave")
-    )
-    return Span(enter, leave, get.form.get("touch"))
+    enter, leave = (_read_end(get.inside(name)) for name in ("enter", "leave"))
+    return Span(enter, leave, get("touch", str | None))
 
 
 def _read_end(get: _Fields) -> End:
+    polynomial = fraction = root = None
     try:
-        polynomial = tuple(int(c) for c in get.form.get("polynomial", ())) or None
-        fraction = get.form.get("fraction")
-        top, bottom = fraction.split("/") if fraction else ("0", "0")
-        return End(
-            polynomial=polynomial,
-            root=get.form.get("root"),
-            fraction=(int(top), int(bottom)) if fraction else None,
-            nearest=parse(get("nearest", str), "hex"),
-            down=parse(get("down", str), "hex"),
-            up=parse(get("up", str), "hex"),
-            digits=get("digits", str),
-            faces=tuple(get("faces", list)),
-            kind=get("kind", str),
-        )
-    except (ValueError, AttributeError, TypeError) as error:
+        if "polynomial" in get.form:
+            polynomial = tuple(int(c) for c in get.many("polynomial", str))
+            root = get("root", int)
+            if root not in (0, 1):
+                raise Refused(f"{get.path}.root", f"is not 0 or 1: {root}")
+        elif "fraction" in get.form:
+            top, bottom = get("fraction", str).split("/")
+            fraction = (int(top), int(bottom))
+    except ValueError as error:
         raise error if isinstance(error, Refused) else Refused(get.path, str(error)) from None
-
-
-def _read_accept(form: object, path: str) -> Accept:
-    get = _Fields(form, path)
-    return Accept(
-        _read_numbers(get("inner", list), f"{path}.inner"),
-        _read_numbers(get("outer", list), f"{path}.outer"),
-        tuple(get("most", list)),
+    return End(
+        polynomial=polynomial,
+        root=root,
+        fraction=fraction,
+        nearest=get.real("nearest"),
+        down=get.real("down"),
+        up=get.real("up"),
+        digits=get("digits", str),
+        faces=get.many("faces", str),
+        kind=get("kind", str),
     )
 
 
-def _read_numbers(pairs: list[Any], path: str) -> Numbers:
-    try:
-        return tuple((parse(a, "hex"), parse(b, "hex")) for a, b in pairs)
-    except (ValueError, TypeError) as error:
-        raise Refused(path, f"is not a list of pairs of hex floats ({error})") from None
+def _read_accept(get: _Fields) -> Accept:
+    accept = Accept(get.numbers("inner"), get.numbers("outer"), get.many("most", int))
+    if len(accept.most) != len(accept.outer):
+        raise Refused(f"{get.path}.most", "has not one number for each pair of outer")
+    return accept

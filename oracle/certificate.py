@@ -77,13 +77,7 @@ def certificate(
         "asked": {"level": asked.level, "convention": asked.convention},
         "selection": list(asked.selection),
         "subject": {"command": list(asked.command), **asdict(hello)},
-        "corpus": {
-            "version": corpus.version,
-            "format": FORMAT_VERSION,
-            "manifest_sha256": corpus.sha256,
-            "precision": corpus.precision,
-            "rows": len(corpus.rows),
-        },
+        "corpus": _corpus(corpus),
         "environment": environment,
         "run": asdict(ran),
         "tested": len(grades),
@@ -98,6 +92,16 @@ def certificate(
         ],
         "failures": [failure(g, asked, hello) for g in grades if g.faults],
         "reproduce": asked.repeat(*asked.selection),
+    }
+
+
+def _corpus(corpus: Corpus) -> Json:
+    return {
+        "version": corpus.version,
+        "format": FORMAT_VERSION,
+        "manifest_sha256": corpus.sha256,
+        "precision": corpus.precision,
+        "rows": len(corpus.rows),
     }
 
 

@@ -14,8 +14,8 @@ from math import inf
 from cases.accept import Numbers
 from cases.protocol import Hello, Reply, convention
 from cases.row import GoldenRow
+from oracle.client.process import Failure
 from oracle.judge import LEVELS, Judge, Level
-from oracle.process import Failure
 
 
 @dataclass(frozen=True)

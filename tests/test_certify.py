@@ -15,10 +15,10 @@ from cases.model import Ray, Solid, type_of
 from cases.protocol import Hello, Reply
 from cases.row import GoldenRow
 from oracle.certify import Touches, by_family, by_solid, verdict
+from oracle.client.process import Failure
 from oracle.commands.certify import certify
 from oracle.grade import Grade, grade
 from oracle.judge import Level
-from oracle.process import Failure
 from reference.tracer import intersect
 
 Intersect = Callable[[Solid, Ray], Iterable[tuple[float, float]]]

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from cases.protocol import Hello
     from cases.row import GoldenRow
     from oracle.certificate import Ran
+    from oracle.client.harness import Limits, Run
     from oracle.grade import Grade
-    from oracle.harness import Limits, Run
 
 BUILT_IN = {
     "oracle": ("-m", "oracle.commands.main", "serve", "oracle"),
@@ -88,7 +88,7 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     JSON object a line on standard input and answers each with one on standard output, flushed.
     """
     from cases.protocol import BadLine, convention
-    from oracle.harness import Limits
+    from oracle.client.harness import Limits
     from oracle.selection import Selection
 
     try:
@@ -140,7 +140,7 @@ def _stop(message: str) -> NoReturn:
 
 
 def _greet(command: Sequence[str], limits: Limits) -> Hello:
-    from oracle.harness import Unusable, greet
+    from oracle.client.harness import Unusable, greet
 
     try:
         hello = greet(command, limits)
@@ -162,10 +162,10 @@ def _corpus(folder: Path | None, hello: Hello) -> Corpus:
 
 def _smoke(command: Sequence[str], hello: Hello, limits: Limits) -> list[str]:
     """Ask the easy cases first; stop if the adapter answers none of them."""
-    from oracle.easy import easy
-    from oracle.harness import Failure, Unusable, run
-    from oracle.smoke import diagnose
-    from oracle.smoke import limits as soon
+    from oracle.client.easy import easy
+    from oracle.client.harness import Failure, Unusable, run
+    from oracle.client.smoke import diagnose
+    from oracle.client.smoke import limits as soon
 
     cases = easy(hello)
     try:
@@ -186,8 +186,8 @@ def _ask(
     """Ask every row; what is known is kept when the person interrupts."""
     import time
 
+    from oracle.client.harness import Interrupted, Question, Unusable, run
     from oracle.commands.progress import counting
-    from oracle.harness import Interrupted, Question, Unusable, run
 
     questions = [Question(row.id, row.solid, row.ray) for row in rows]
     began = time.monotonic()

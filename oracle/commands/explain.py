@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from cases.case import Case
     from cases.formats import Format
     from cases.forms import Json
-    from oracle.derivation import Derivation
-    from oracle.derivation_form import Fact
+    from oracle.derivation.derive import Derivation
+    from oracle.derivation.form import Fact
 
 SHAPES = {
     "cylinder": ("p", "q", "radius"),
@@ -89,8 +89,8 @@ def explain(id: str | None, form: str, full: bool, **options: Any) -> None:
     from dataclasses import replace
 
     from cases.formats import FORMATS
-    from oracle.derivation import derive, given
-    from oracle.derivation_form import Step
+    from oracle.derivation.derive import derive, given
+    from oracle.derivation.form import Step
 
     fmt = FORMATS[options["precision"]]
     shapes = [name for name in SHAPES if options[name]]
@@ -116,19 +116,19 @@ def _show(derivation: Derivation, form: str, full: bool) -> None:
     if form == "json":
         import json
 
-        from oracle.derivation import to_json
+        from oracle.derivation.derive import to_json
 
         click.echo(json.dumps(to_json(derivation), indent=1))
         return
     from rich.console import Console
 
-    from oracle.derivation_text import show
+    from oracle.derivation.text import show
 
     show(derivation, Console(), full)
 
 
 def _from_golden(id: str, options: dict[str, Any]) -> Derivation:
-    from oracle.derivation import as_given, derive
+    from oracle.derivation.derive import as_given, derive
 
     corpus = read(options["precision"], options["golden"])
     row = find(corpus, id)
@@ -143,7 +143,7 @@ def _from_json(data: bytes, fmt: Format) -> Case:
     from cases.forms import read_ray, read_solid
     from cases.model import Refused
     from cases.protocol import BadLine, decode
-    from oracle.derivation import given
+    from oracle.derivation.derive import given
 
     try:
         form = decode(data)
@@ -213,7 +213,7 @@ def _number(text: str, path: str, fmt: Format, rounded: list[Fact]) -> float:
     from math import isfinite
 
     from cases.model import Refused
-    from oracle.derivation_form import Fact, about, dyadic
+    from oracle.derivation.form import Fact, about, dyadic
     from oracle.rounding import enclose
     from oracle.surd import fraction
 

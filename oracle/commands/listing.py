@@ -274,8 +274,8 @@ def _print_in_full(rows: list[GoldenRow], corpus: Corpus, full: bool) -> None:
     from rich.console import Console
     from rich.text import Text
 
-    from oracle.derivation_row import row_steps
-    from oracle.derivation_text import case_lines, put, step_lines
+    from oracle.derivation.row import row_steps
+    from oracle.derivation.text import case_lines, put, step_lines
 
     console = Console()
     width = 10**9 if full else console.width

@@ -15,8 +15,8 @@ import pytest
 
 from cases.model import Cylinder, Ray
 from cases.protocol import Reply
-from oracle.dialogue import fresh_ids
-from oracle.harness import (
+from oracle.client.dialogue import fresh_ids
+from oracle.client.harness import (
     Failure,
     Interrupted,
     Limits,

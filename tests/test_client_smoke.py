@@ -25,9 +25,9 @@ from cases.model import (
     Union,
 )
 from cases.protocol import Hello, Pairs, Reply
-from oracle.easy import EASY, Easy, easy
-from oracle.harness import Failure, Limits, Outcome, run
-from oracle.smoke import diagnose, limits
+from oracle.client.easy import EASY, Easy, easy
+from oracle.client.harness import Failure, Limits, Outcome, run
+from oracle.client.smoke import diagnose, limits
 
 Point = tuple[Fraction, ...]
 DECLARED = [

@@ -14,8 +14,8 @@ from rich.text import Text
 from cases.formats import Format
 from cases.model import Ray, Solid, Tree, Vector, type_of
 from cases.row import GoldenRow
-from oracle.derivation import Derivation
-from oracle.derivation_form import Cell, Fact, Note, Step, Table, shorten, shortest
+from oracle.derivation.derive import Derivation
+from oracle.derivation.form import Cell, Fact, Note, Step, Table, shorten, shortest
 
 NAME, ASIDE = "cyan", "bright_black"
 LABELS = ("point", "normal", "center", "p", "q", "radius")

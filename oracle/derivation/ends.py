@@ -9,7 +9,7 @@ from cases.accept import Accept, Pairs
 from cases.formats import Format
 from cases.row import End, GoldenRow
 from oracle.condition import kappa
-from oracle.derivation_form import Fact, Note, Step, brief, endpoint, numbers, shortest, tidy
+from oracle.derivation.form import Fact, Note, Step, brief, endpoint, numbers, shortest, tidy
 from oracle.judge import LEVELS, Judge
 from oracle.rounding import decimal
 from oracle.surd import Surd

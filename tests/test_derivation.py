@@ -21,9 +21,9 @@ from cases.model import (
     Union,
 )
 from cases.table import HALF_SPACE, PROBLEM_1, PROBLEM_2, PROBLEM_3
-from oracle.derivation import derive, given, solid_steps, to_json
-from oracle.derivation_ends import judgement
-from oracle.derivation_form import (
+from oracle.derivation.derive import derive, given, solid_steps, to_json
+from oracle.derivation.ends import judgement
+from oracle.derivation.form import (
     Fact,
     Note,
     Step,
@@ -35,7 +35,7 @@ from oracle.derivation_form import (
     tidy,
     vector,
 )
-from oracle.derivation_text import step_lines
+from oracle.derivation.text import step_lines
 from oracle.judge import Judge
 from oracle.surd import INFINITY, Surd
 from oracle.textbook import textbook

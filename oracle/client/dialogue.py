@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from cases.model import Ray, Solid
 from cases.protocol import VERSION, BadLine, Hello, Reply, ask, encode, read_hello, read_reply
-from oracle.process import GRACE, Broken, Failure, Process, shown
+from oracle.client.process import GRACE, Broken, Failure, Process, shown
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,7 @@
 """Easy cases, their answers written by hand: solids along the axes, rays that nobody gets wrong.
 
 No answer depends on a convention, most directions have not length 1, and neighbours differ, so
-that the usual misreadings of a question (oracle/smoke.py) show. Nothing is computed here.
+that the usual misreadings of a question (smoke.py) show. Nothing is computed here.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from cases.model import (
     type_of,
 )
 from cases.protocol import Hello, Pairs
-from oracle.dialogue import Question
+from oracle.client.dialogue import Question
 
 INF = math.inf
 

@@ -21,7 +21,7 @@ from cases.model import (
     Vector,
 )
 from cases.table import HALF_SPACE, PROBLEM_1, PROBLEM_2, PROBLEM_3
-from oracle.derivation_form import (
+from oracle.derivation.form import (
     Exact,
     Fact,
     Note,

@@ -25,9 +25,9 @@ from cases.model import (
     type_of,
 )
 from cases.row import GoldenRow, write_row
-from oracle.derivation_ends import answer_steps, judgement
-from oracle.derivation_form import Fact, Note, Step, as_json, listed
-from oracle.derivation_leaf import leaf_steps
+from oracle.derivation.ends import answer_steps, judgement
+from oracle.derivation.form import Fact, Note, Step, as_json, listed
+from oracle.derivation.leaf import leaf_steps
 from oracle.golden import golden_row
 from oracle.grid import Grid
 from oracle.intervals import Intervals

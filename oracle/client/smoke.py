@@ -14,9 +14,9 @@ from dataclasses import replace
 from itertools import pairwise
 
 from cases.protocol import Pairs, Reply
-from oracle.dialogue import Limits
-from oracle.easy import Easy
-from oracle.process import Failure
+from oracle.client.dialogue import Limits
+from oracle.client.easy import Easy
+from oracle.client.process import Failure
 
 Outcome = Reply | Failure
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from cases.flags import FLAGS
 from cases.formats import Format
 from cases.row import End, GoldenRow
-from oracle.derivation_form import Fact, Step, numbers, shortest, tidy
+from oracle.derivation.form import Fact, Step, numbers, shortest, tidy
 
 POWERS = ("", " t", " t^2")
 

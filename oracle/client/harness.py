@@ -3,8 +3,8 @@
 Questions are pipelined. After a crash, a hang, a bad line or a wrong id the process is killed, and
 what it had not answered is asked again one at a time. A failure is a question's own only where the
 question was the first that a fresh process was asked; a failure that does not come again so is
-`unrepeatable`. Here: that replay. Not here: pipes and time (oracle/process.py), the protocol
-(oracle/dialogue.py), whether an answer is right.
+`unrepeatable`. Here: that replay. Not here: pipes and time (process.py), the protocol
+(dialogue.py), whether an answer is right.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from cases.protocol import Hello, Reply
-from oracle.dialogue import Dialogue, Limits, Question, Unusable, fresh_ids
-from oracle.process import Broken, Failure
+from oracle.client.dialogue import Dialogue, Limits, Question, Unusable, fresh_ids
+from oracle.client.process import Broken, Failure
 
 __all__ = [
     "Failure",

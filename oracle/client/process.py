@@ -1,8 +1,8 @@
 """One live program: lines in, lines out, and no deadlock, whatever it does.
 
-Here: pipes, threads, time and death. Not here: what a line means (oracle/dialogue.py) and what to
-do after a failure (oracle/harness.py). Three threads pump the pipes, so that the owner never
-blocks on a program that does not read, does not write, or floods its standard error.
+Here: pipes, threads, time and death. Not here: what a line means (dialogue.py) and what to do after
+a failure (harness.py). Three threads pump the pipes, so that the owner never blocks on a program
+that does not read, does not write, or floods its standard error.
 """
 
 from __future__ import annotations

@@ -1,0 +1,1 @@
+"""One case derived in the seed's own steps: as data, and as text."""
