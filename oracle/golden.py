@@ -5,7 +5,7 @@ Everything is computed anew from the families; nothing is read back but to be co
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -16,6 +16,7 @@ from cases.formats import FORMATS, Format
 from cases.model import Ray, Solid, Tree
 from cases.row import End, GoldenRow, Span
 from oracle.condition import condition
+from oracle.crosscheck import Question, check
 from oracle.decisive import decisive
 from oracle.faces import place, touch
 from oracle.intervals import Interval, Intervals
@@ -27,16 +28,27 @@ from oracle.trace import trace
 Progress = Callable[[str], None]
 
 
+USUAL = ("definition", "enclosure")
+RELEASE = (*USUAL, "symbols", "meshes")
+"""The witnesses that a row has to get past before it is written, and those for a release."""
+
+
 class Contradiction(ArithmeticError):
-    """A case whose known answer is not the oracle's: one of the two is wrong."""
+    """A case on whose answer the oracle is alone: something is wrong, so nothing is written."""
 
 
-def golden_row(family: Family, case: Case, fmt: Format) -> GoldenRow:
-    """Return the golden row of a case. Raises `Contradiction` where its known answer differs."""
+def golden_row(family: Family, case: Case, fmt: Format, witnesses: Sequence[str] = ()) -> GoldenRow:
+    """Return the golden row of a case.
+
+    Raises `Contradiction` where the answer known by construction, or a witness, differs.
+    """
     answer = trace(case.solid, case.ray)
     id = f"{family.name}/{case.slug}"
     if case.known is not None and known(case.known) != answer.intervals:
         raise Contradiction(f"{id}: known {case.known}, the oracle finds {show(answer.intervals)}")
+    for name, verdict, _ in check(Question(id, case.solid, case.ray), witnesses).verdicts:
+        if verdict.outcome == "disagreed":
+            raise Contradiction(f"{id}: {name} finds {verdict.found}: {verdict.why}")
     judge = Judge(case.solid, case.ray, fmt, case.tier)
     return GoldenRow(
         id=id,
@@ -100,20 +112,27 @@ class Drift:
     what: str
 
 
-def golden_files(families: tuple[Family, ...], progress: Progress) -> Iterator[tuple[str, bytes]]:
+def golden_files(
+    families: tuple[Family, ...], progress: Progress, witnesses: Sequence[str] = ()
+) -> Iterator[tuple[str, bytes]]:
     """Yield (relative name, bytes) of every golden file; `progress` is told each row's id."""
     for precision, fmt in FORMATS.items():
         for family in families:
             rows = []
             for case in family.cases(fmt):
-                rows.append(golden_row(family, case, fmt))
+                rows.append(golden_row(family, case, fmt, witnesses))
                 progress(rows[-1].id)
             yield f"{precision}/{family.name}.jsonl", encode_rows(rows, fmt)
 
 
-def write(folder: Path, families: tuple[Family, ...], progress: Progress) -> dict[str, bytes]:
+def write(
+    folder: Path,
+    families: tuple[Family, ...],
+    progress: Progress,
+    witnesses: Sequence[str] = USUAL,
+) -> dict[str, bytes]:
     """Write every golden file and the manifest; nothing is touched before all rows are made."""
-    files = dict(golden_files(families, progress))
+    files = dict(golden_files(families, progress, witnesses))
     for name, data in files.items():
         write_whole(folder / name, data)
     for stale in set(folder.glob("*/*.jsonl")) - {folder / name for name in files}:
@@ -122,7 +141,7 @@ def write(folder: Path, families: tuple[Family, ...], progress: Progress) -> dic
     return files
 
 
-def check(folder: Path, families: tuple[Family, ...], progress: Progress) -> list[Drift]:
+def compare(folder: Path, families: tuple[Family, ...], progress: Progress) -> list[Drift]:
     """Return every difference between the files on disk and the rows as computed now."""
     files = dict(golden_files(families, progress))
     drifts = [drift for name, data in files.items() for drift in _compare(folder, name, data)]

@@ -23,16 +23,25 @@ def golden() -> None:
 
 @golden.command(epilog="In a checkout: raycert golden write --golden cases/golden")
 @FOLDER
-def write(folder: Path | None) -> None:
-    """Compute every row and write the files and the manifest; nothing is written before all is."""
+@click.option(
+    "--release",
+    is_flag=True,
+    help="Ask the witnesses by symbols and by meshes too; needs their extras, takes minutes.",
+)
+def write(folder: Path | None, release: bool) -> None:
+    """Compute every row and write the files and the manifest; nothing is written before all is.
+
+    The witnesses by definition and by enclosure check each row. A row on which one disagrees is
+    not written, and neither is anything else.
+    """
     from cases.families.catalog import FAMILIES
-    from oracle.golden import Contradiction
+    from oracle.golden import RELEASE, USUAL, Contradiction
     from oracle.golden import write as write_files
 
     target = _folder(folder)
     try:
         with _progress("computing") as progress:
-            files = write_files(target, FAMILIES, progress)
+            files = write_files(target, FAMILIES, progress, RELEASE if release else USUAL)
     except Contradiction as error:
         raise click.ClickException(f"nothing was written. {error}") from None
     rows = sum(data.count(b"\n") for data in files.values())
@@ -44,11 +53,11 @@ def write(folder: Path | None) -> None:
 def check(folder: Path | None) -> None:
     """Compute every row and compare bytes and values with the files; exit 1 on any difference."""
     from cases.families.catalog import FAMILIES
-    from oracle.golden import check as check_files
+    from oracle.golden import compare
 
     target = _folder(folder)
     with _progress("computing") as progress:
-        drifts = check_files(target, FAMILIES, progress)
+        drifts = compare(target, FAMILIES, progress)
     for drift in drifts[:20]:
         click.echo(f"{drift.file}: {drift.what}")
     if len(drifts) > 20:

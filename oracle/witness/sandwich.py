@@ -1,0 +1,119 @@
+"""Two lists around the true one: their Booleans, and what they say about an answer.
+
+A `Sandwich` promises inner <= true <= outer as sets of t, up to single points of the inner list's
+ends. The algebra here is not the oracle's: a list is a set of the elementary segments between all
+ends that occur, each decided by itself. Single points are dropped, which a sandwich may do: inner
+may be smaller, and outer reaches beyond the true list by more than a point wherever that is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from cases.model import Difference, Intersection, Tree, Union
+from oracle.intervals import Interval, Intervals
+from oracle.rounding import decimal
+from oracle.surd import INFINITY, ZERO, Surd
+from oracle.witness.verdict import Outcome
+
+NONE: Intervals = ()
+ALL: Intervals = ((ZERO, INFINITY),)
+Rule = Callable[[Sequence[bool]], bool]
+
+
+@dataclass(frozen=True, slots=True)
+class Sandwich:
+    """An inner and an outer list, and the casts that said nothing."""
+
+    inner: Intervals
+    outer: Intervals
+    doubts: tuple[str, ...] = ()
+
+
+def covers(intervals: Intervals, low: Surd, high: Surd) -> bool:
+    """Tell whether [low, high] lies in one interval."""
+    return any(a <= low and high <= b for a, b in intervals)
+
+
+def select(lists: Sequence[Intervals], rule: Rule) -> Intervals:
+    """Return the closure of the segments of t >= 0 for whose memberships the rule holds."""
+    ends = {end for one in lists for interval in one for end in interval}
+    cuts = sorted(ends | {ZERO, INFINITY})
+    kept: list[Interval] = []
+    for low, high in pairwise(cuts):
+        if rule([covers(one, low, high) for one in lists]):
+            joined = kept and kept[-1][1] == low
+            kept[-1 if joined else len(kept) :] = [(kept[-1][0] if joined else low, high)]
+    return tuple(kept)
+
+
+def combine(tree: Tree, parts: Sequence[Sandwich]) -> Sandwich:
+    """Return the sandwich of a Boolean: a part that is taken away changes sides."""
+    inner, outer = [part.inner for part in parts], [part.outer for part in parts]
+    doubts = tuple(doubt for part in parts for doubt in part.doubts)
+    match tree:
+        case Union():
+            return Sandwich(select(inner, any), select(outer, any), doubts)
+        case Intersection():
+            return Sandwich(select(inner, all), select(outer, all), doubts)
+        case Difference():
+            first, others = parts[0], parts[1:]
+            deep = [first.inner, *(part.outer for part in others)]
+            wide = [first.outer, *(part.inner for part in others)]
+            return Sandwich(select(deep, _only_first), select(wide, _only_first), doubts)
+
+
+def _only_first(inside: Sequence[bool]) -> bool:
+    return inside[0] and not any(inside[1:])
+
+
+def judge(answer: Intervals, sandwich: Sandwich) -> tuple[Outcome, str]:
+    """Return what a sandwich says of an answer, and why.
+
+    disagreed   an inner interval is not in one of the answer, or one of the answer not in an outer
+    agreed      neither, and there is one inner for each outer interval, at least half as long, and
+                one of the answer between the two: the number of pairs is settled, and each of
+                them. An outer list that is empty settles an empty answer.
+    undecided   neither, and something is too thin for the bodies: a touch, a sliver, a slit
+    """
+    for a, b in sandwich.inner:
+        if not covers(answer, a, b):
+            return "disagreed", f"{show_pair(a, b)} is inside, and in no pair of the answer"
+    for a, b in answer:
+        if not covers(sandwich.outer, a, b):
+            return "disagreed", f"{show_pair(a, b)} of the answer reaches outside"
+    doubt = f" ({'; '.join(sandwich.doubts)})" if sandwich.doubts else ""
+    for low, high in sandwich.outer:
+        held = [(a, b) for a, b in sandwich.inner if low <= a and b <= high]
+        pairs = sum(low <= a and b <= high for a, b in answer)
+        if len(held) != 1 or pairs != 1:
+            why = f"{show_pair(low, high)} holds {len(held)} inner and {pairs} pairs of the answer"
+            return "undecided", why + doubt
+        if not _half(held[0], (low, high)):
+            return "undecided", f"{show_pair(low, high)} is less than half confirmed{doubt}"
+    return "agreed", f"inner and outer settle {len(answer)} pairs"
+
+
+def _half(inner: Interval, outer: Interval) -> bool:
+    """Tell whether inner is at least half as long as outer; all four ends are rational."""
+    low, a, b, high = (end.rational() for end in (outer[0], *inner, outer[1]))
+    if b is None or high is None:
+        return b is None and high is None
+    assert low is not None
+    assert a is not None
+    return 2 * (b - a) >= high - low
+
+
+def show_pair(a: Surd, b: Surd) -> str:
+    """Return one interval for people."""
+    return f"[{decimal(a, 8)}, {decimal(b, 8)}]"
+
+
+def show(sandwich: Sandwich) -> str:
+    """Return both lists for people."""
+    inner, outer = (
+        ", ".join(show_pair(a, b) for a, b in one) for one in (sandwich.inner, sandwich.outer)
+    )
+    return f"inner [{inner}], outer [{outer}]"

@@ -1,0 +1,295 @@
+"""The Boolean of the bodies themselves: Manifold combines meshes, trimesh casts at the result.
+
+A second road to the list of a tree, which shares with the first only the bodies and the caster. All
+leaves are put into one frame, moved and scaled by a power of two so that the part of the ray in
+which they begin and end (the window) lies within 2 of its middle. Leaves without end are cut at
+CUT, outside of the window, and lists are compared in the window only.
+
+The frame is in doubles, so the bodies keep 2 WIDE away from the true ones, in units of each leaf:
+with leaves of 2^-10 to 2^6 and coordinates below 2^12, 2^-16 2^-10 = 1.5e-8 stands against 2^-42 a
+rounding, a few of which place a vertex and the ray, and against the 1e-12 of its greatest
+coordinate by which Manifold may move a vertex. What is larger, smaller or farther off is not tried.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import lru_cache, partial
+
+import numpy as np
+from manifold3d import Error, Manifold, Mesh64, OpType
+
+from cases.model import (
+    Difference,
+    HalfSpace,
+    InfiniteCylinder,
+    Intersection,
+    Leaf,
+    Ray,
+    Slab,
+    Solid,
+    Sphere,
+    Union,
+    Vector,
+    leaves,
+)
+from oracle.intervals import Interval, Intervals
+from oracle.surd import INFINITY, ZERO, Surd, fraction
+from oracle.witness.casting import Hits, Unsure, hits, may_lose
+from oracle.witness.frame import (
+    AWAY,
+    ONE,
+    Exact,
+    Line,
+    across,
+    dot,
+    minus,
+    power,
+    root,
+    two_to,
+    vector,
+)
+from oracle.witness.prism import Body, Fineness, Floats, Side, ball_surface, prism_surface
+from oracle.witness.sandwich import NONE, Sandwich, judge, select
+from oracle.witness.verdict import Outcome
+
+WIDE = 2.0**-16
+CUT = 16
+"""Where leaves without end are cut: 16 from the point of theirs nearest to the middle."""
+
+SMALLEST, LARGEST = Fraction(1, 1024), 64
+START = 2048
+"""How many steps of 0.7 or more before the middle a cast starts: a body lies
+within 256 sqrt(3) and, a half-space, as far again and 32, which is 950 in all."""
+
+SPREAD = 2.0**-24
+"""Hits of one end lie this close together; ends that are not 16 times as far apart are unsure."""
+
+COARSE = (Fineness(n=48, level=2), Fineness(n=40, level=2, variant=1))
+"""Two sets of bodies: a disagreement is one that both see. Finer ones settle no more of a random
+sample, and cost 2.5 times as much at n = 64, level 3."""
+
+
+class NotTried(ValueError):
+    """A scene that does not fit the frame, and why."""
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """x' = (x - middle) * scale, and the window low <= t <= high."""
+
+    middle: Exact
+    scale: Fraction
+    low: Fraction
+    high: Fraction
+
+    def point(self, x: Vector) -> Exact:
+        """Return a point in the frame."""
+        return times(self.scale, minus(vector(x), self.middle))
+
+    def length(self, x: float | Fraction) -> Fraction:
+        """Return a length in the frame, or refuse it; the outer body of 0 takes the least."""
+        found = self.scale * Fraction(x) or SMALLEST
+        if not SMALLEST <= found <= LARGEST:
+            raise NotTried("the sizes differ too much for one frame")
+        return found
+
+    @property
+    def window(self) -> Intervals:
+        """Return the window as a list."""
+        return ((surd(self.low), surd(self.high)),)
+
+
+def surd(x: Fraction) -> Surd:
+    """Return a fraction as a number of the lists."""
+    return fraction(x.numerator, x.denominator)
+
+
+def times(factor: Fraction, a: Exact) -> Exact:
+    """Return factor * a."""
+    return (factor * a[0], factor * a[1], factor * a[2])
+
+
+def check(
+    solid: Solid, ray: Ray, answer: Intervals, parts: Sequence[Sandwich]
+) -> tuple[Outcome, str]:
+    """Return what the combined bodies say of an answer, and why.
+
+    `parts` are the sandwiches of the leaves, which give the window.
+    """
+    try:
+        frame = _frame(solid, ray, parts)
+        first, second = (
+            partial(_compare, solid, ray, answer, frame, fineness) for fineness in COARSE
+        )
+        outcome, why = first()
+        if outcome == "disagreed" and second()[0] != "disagreed":
+            return "undecided", f"seen with one set of bodies only: {why}"
+    except NotTried as reason:
+        return "undecided", f"not tried: {reason}"
+    except Unsure as unsure:
+        return "undecided", str(unsure)
+    return outcome, why
+
+
+def _frame(solid: Solid, ray: Ray, parts: Sequence[Sandwich]) -> Frame:
+    """Return the frame whose window holds the outer ends of all leaves, and a quarter more.
+
+    Where no leaf begins or ends after 0, the window holds the ray as far as the leaves are.
+    """
+    u, v = vector(ray.origin), vector(ray.direction)
+    speed = max(abs(c) for c in v)
+    if not speed:
+        raise NotTried("the ray stays at its origin")
+    ends = {e.rational() for part in parts for pair in part.outer for e in pair if e != INFINITY}
+    known = [end for end in ends if end is not None]
+    if not any(known):
+        away = [minus(vector(_anchor(leaf)), u) for _, leaf in leaves(solid)]
+        known = [max(abs(c) for c in d) / speed for d in away]
+    if not any(known):
+        raise NotTried("the ray starts where the leaves are, and meets no end of theirs")
+    pad = (max(known) - min(known) or max(known)) / 4
+    low, high = max(min(known) - pad, Fraction(0)), max(known) + pad
+    center, reach = (low + high) / 2, (high - low) / 2
+    middle = minus(u, times(-center, v))
+    return Frame(middle, 1 / power(reach * root(dot(v, v))), low, high)
+
+
+def _anchor(leaf: Leaf) -> Vector:
+    """Return a point that a leaf is given by."""
+    match leaf:
+        case Sphere():
+            return leaf.center
+        case HalfSpace():
+            return leaf.point
+    return leaf.p
+
+
+def _compare(
+    solid: Solid, ray: Ray, answer: Intervals, frame: Frame, fineness: Fineness
+) -> tuple[Outcome, str]:
+    inner, outer = (
+        select((_cast(_build(solid, frame, fineness, side), ray, frame), frame.window), all)
+        for side in (Side.INNER, Side.OUTER)
+    )
+    low, high = frame.window[0]
+    seen = [(max(a, low), min(b, high)) for a, b in answer]
+    return judge(tuple((a, b) for a, b in seen if a <= b), Sandwich(inner, outer))
+
+
+def _build(solid: Solid, frame: Frame, fineness: Fineness, side: Side) -> Manifold:
+    """Return the inner or outer body of a solid; a part that is taken away changes sides."""
+    match solid:
+        case Union():
+            kind = OpType.Add
+        case Intersection():
+            kind = OpType.Intersect
+        case Difference():
+            kind = OpType.Subtract
+        case _:
+            return _leaf(solid, frame, fineness, side)
+    away = side.other if isinstance(solid, Difference) else side
+    parts = [_build(part, frame, fineness, away if i else side) for i, part in enumerate(solid.of)]
+    return Manifold.batch_boolean(parts, kind)
+
+
+def _leaf(leaf: Leaf, frame: Frame, fineness: Fineness, side: Side) -> Manifold:
+    """Return a unit body, moved to where its leaf is in the frame."""
+    surface = _ball if isinstance(leaf, Sphere) else _prism
+    if side is Side.INNER and not getattr(leaf, "radius", True):
+        return Manifold()
+    vertices, faces = surface(fineness, side)
+    middle, columns = _place(leaf, frame)
+    if max(abs(c) for c in middle) > 4 * LARGEST:
+        raise NotTried("a leaf is far from where the leaves begin and end")
+    matrix = np.array([[float(c) for c in column] for column in columns])
+    moved = vertices @ matrix + np.array([float(c) for c in middle])
+    body = Manifold(Mesh64(np.ascontiguousarray(moved), faces.astype(np.uint64)))
+    if body.status() != Error.NoError:
+        raise Unsure(f"Manifold refuses a body: {body.status()}")
+    return body
+
+
+@lru_cache(maxsize=8)
+def _prism(fineness: Fineness, side: Side) -> tuple[Floats, np.ndarray]:
+    return prism_surface(fineness, side, WIDE)
+
+
+@lru_cache(maxsize=8)
+def _ball(fineness: Fineness, side: Side) -> tuple[Floats, np.ndarray]:
+    return ball_surface(fineness, side, WIDE)
+
+
+def _place(leaf: Leaf, frame: Frame) -> tuple[Exact, tuple[Exact, Exact, Exact]]:
+    """Return where the middle and the three axes of the unit body go."""
+    match leaf:
+        case Sphere():
+            r, o = frame.length(leaf.radius), Fraction(0)
+            return frame.point(leaf.center), ((r, o, o), (o, r, o), (o, o, r))
+        case HalfSpace():
+            normal = vector(leaf.normal)
+            foot = _onto(frame.point(leaf.point), normal)
+            depth = CUT + root(dot(foot, foot) or ONE)
+            up = times(depth / root(dot(normal, normal)), normal)
+            return minus(foot, up), _axes(up, Fraction(CUT))
+    p, q = frame.point(leaf.p), frame.point(leaf.q)
+    w, middle = minus(q, p), times(ONE / 2, minus(p, times(-ONE, q)))
+    if isinstance(leaf, InfiniteCylinder):
+        along = times(CUT / root(dot(w, w)), w)
+        return minus(p, _onto(p, w)), _axes(along, frame.length(leaf.radius))
+    frame.length(root(dot(w, w)))
+    if isinstance(leaf, Slab):
+        return _onto(middle, w), _axes(times(ONE / 2, w), Fraction(CUT))
+    return middle, _axes(times(ONE / 2, w), frame.length(leaf.radius))
+
+
+def _onto(x: Exact, w: Exact) -> Exact:
+    """Return the part of x along w."""
+    return times(dot(x, w) / dot(w, w), w)
+
+
+def _axes(w: Exact, radius: Fraction) -> tuple[Exact, Exact, Exact]:
+    """Return the right-handed axes of a prism with a half axis w."""
+    e, f = across(w)
+    return times(radius / root(dot(e, e)), e), times(radius / root(dot(f, f)), f), w
+
+
+def _cast(solid: Manifold, ray: Ray, frame: Frame) -> Intervals:
+    """Return the t >= 0 for which the ray is within a body, which need not be convex."""
+    if solid.is_empty():
+        return NONE
+    mesh = solid.to_mesh64()
+    body = Body.of(
+        np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts).astype(np.int64)
+    )
+    v = times(frame.scale, vector(ray.direction))
+    square = dot(v, v)
+    pace = two_to(-((square.numerator.bit_length() - square.denominator.bit_length()) // 2))
+    d = times(pace, v)
+    center = (frame.low + frame.high) / 2
+    x, y, z = (float(-START * c) for c in d)
+    t0 = center - pace * (START - AWAY)
+    line = Line((x, y, z), (float(d[0]), float(d[1]), float(d[2])), t0, pace)
+    if may_lose(body, line):
+        raise Unsure("a face of the combined bodies is too near parallel")
+    return _alternating(hits(body, line), line)
+
+
+def _alternating(found: Hits, line: Line) -> Intervals:
+    """Return the list that hits make which enter and leave in turn, each at a place of its own."""
+    ends: list[tuple[float, bool]] = []
+    for tau, inward in zip(found.tau.tolist(), found.inward, strict=True):
+        apart = tau - ends[-1][0] if ends else 1.0
+        if apart <= SPREAD and ends[-1][1] == inward:
+            continue
+        if apart <= 16 * SPREAD:
+            raise Unsure("two ends of the combined bodies lie too close together")
+        ends.append((tau, inward))
+    turns = [inward for _, inward in ends]
+    if turns != [True, False] * (len(ends) // 2):
+        raise Unsure("the hits of the combined bodies do not enter and leave in turn")
+    times_ = [surd(line.t0 + line.pace * (Fraction(tau) - AWAY)) for tau, _ in ends]
+    pairs: list[Interval] = list(zip(times_[::2], times_[1::2], strict=True))
+    return tuple((max(a, ZERO), b) for a, b in pairs if b > ZERO)
