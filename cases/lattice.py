@@ -1,0 +1,117 @@
+"""The lattice: solids and rays on which every sound formula decides a touch exactly.
+
+There, and only there, an answer tells the convention of the implementation (touches kept or
+dropped) and not its rounding.
+"""
+
+from __future__ import annotations
+
+import math
+from itertools import combinations
+
+from cases.model import (
+    Cylinder,
+    HalfSpace,
+    InfiniteCylinder,
+    Leaf,
+    Ray,
+    Slab,
+    Solid,
+    Sphere,
+    Tree,
+    Vector,
+    leaves,
+)
+
+REACH = 2**11
+"""Coordinates differ by less than this; powers of two lie between 1/REACH and REACH."""
+
+
+def is_lattice(solid: Solid, ray: Ray) -> bool:
+    """Tell whether a leaf and a ray, or all leaves of a tree and a ray, lie on the lattice.
+
+    Axes, normals and directions lie along coordinate axes; |w|, |direction|, |normal| and radius
+    are powers of two; coordinates are integers whose differences stay below 2^11. The powers are
+    bounded too, so that a step that over- or underflows is no matter of convention.
+
+    A tree with an endless leaf that holds the ray in its face is off the lattice: a convention
+    that drops that touch ends somewhere else, and both ends are right.
+    """
+    parts = [leaf for _, leaf in leaves(solid)]
+    points, vectors, lengths = [ray.origin], [ray.direction], []
+    for leaf in parts:
+        match leaf:
+            case HalfSpace():
+                points.append(leaf.point)
+                vectors.append(leaf.normal)
+            case Sphere():
+                points.append(leaf.center)
+                lengths.append(leaf.radius)
+            case Slab():
+                points += [leaf.p, leaf.q]
+            case InfiniteCylinder() | Cylinder():
+                points += [leaf.p, leaf.q]
+                lengths.append(leaf.radius)
+    if not (all(_is_whole(point) for point in points) and _are_near(points)):
+        return False
+    vectors += [_difference(x.q, x.p) for x in parts if not isinstance(x, HalfSpace | Sphere)]
+    along = [_length_along_an_axis(vector) for vector in vectors]
+    if not all(_is_small_power_of_two(length) for length in lengths + along):
+        return False
+    return not (isinstance(solid, Tree) and any(_holds_in_a_face(x, ray) for x in parts))
+
+
+def _holds_in_a_face(leaf: Leaf, ray: Ray) -> bool:
+    """Tell whether an endless leaf of the lattice has the whole ray in its face."""
+    match leaf:
+        case HalfSpace(point, normal):
+            return _is_level(ray, point, normal)
+        case Slab(p, q):
+            return any(_is_level(ray, end, _difference(q, p)) for end in (p, q))
+        case InfiniteCylinder(p, q, radius):
+            across = [
+                y
+                for y, w in zip(_difference(ray.origin, p), _difference(q, p), strict=True)
+                if w == 0
+            ]
+            still = [v for v, w in zip(ray.direction, _difference(q, p), strict=True) if w == 0]
+            return not any(still) and across[0] ** 2 + across[1] ** 2 == radius**2
+    return False
+
+
+def _is_level(ray: Ray, point: Vector, normal: Vector) -> bool:
+    """Tell whether a ray of the lattice lies in the plane through `point` square to `normal`."""
+    return _dot(ray.direction, normal) == _dot(_difference(ray.origin, point), normal) == 0
+
+
+def _dot(a: Vector, b: Vector) -> float:
+    """Return a . b, exact where b lies along an axis and both are of the lattice."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def _is_whole(point: Vector) -> bool:
+    return all(x.is_integer() and abs(x) < 2**53 for x in point)
+
+
+def _are_near(points: list[Vector]) -> bool:
+    """Tell whether points with whole coordinates differ by less than REACH in each."""
+    return all(
+        abs(int(x) - int(y)) < REACH
+        for one, other in combinations(points, 2)
+        for x, y in zip(one, other, strict=True)
+    )
+
+
+def _difference(a: Vector, b: Vector) -> Vector:
+    """Return a - b, exact for near points with whole coordinates."""
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def _length_along_an_axis(vector: Vector) -> float:
+    """Return the length of a vector along a coordinate axis, and 0 for any other."""
+    sizes = [abs(x) for x in vector if x != 0]
+    return sizes[0] if len(sizes) == 1 else 0.0
+
+
+def _is_small_power_of_two(length: float) -> bool:
+    return math.frexp(length)[0] == 0.5 and 1 / REACH <= length <= REACH
