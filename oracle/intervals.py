@@ -81,7 +81,7 @@ def subtract(one: Intervals, two: Intervals) -> Intervals:
             continue
         start = enter
         for a, b in two:
-            if a == b or b <= start or a >= leave:
+            if b <= start or a >= leave:
                 continue
             if start < a:
                 rest.append((start, a))

@@ -1,0 +1,50 @@
+"""Every example in a docstring of the three packages does what it says."""
+
+from __future__ import annotations
+
+import doctest
+import importlib
+import pkgutil
+from collections.abc import Iterator
+from types import ModuleType
+
+import pytest
+
+import cases
+import oracle
+import reference
+
+LEAST = 8
+"""How many examples there are at least: none found would prove nothing."""
+
+
+def names(package: ModuleType) -> Iterator[str]:
+    """Yield the names of a package and of all its modules, but the ones that run on import."""
+    yield package.__name__
+    for module in pkgutil.walk_packages(package.__path__, f"{package.__name__}."):
+        if not module.name.endswith("__main__"):
+            yield module.name
+
+
+MODULES = [name for package in (cases, oracle, reference) for name in names(package)]
+
+
+def run(module: ModuleType) -> doctest.TestResults:
+    return doctest.testmod(module, optionflags=doctest.ELLIPSIS)
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_examples(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    result = run(importlib.import_module(name))
+    assert result.failed == 0, capsys.readouterr().out
+
+
+def test_there_are_examples() -> None:
+    assert len(MODULES) > 40
+    assert sum(run(importlib.import_module(name)).attempted for name in MODULES) >= LEAST
+
+
+def test_a_wrong_example_fails(capsys: pytest.CaptureFixture[str]) -> None:
+    module = ModuleType("planted", "A wrong example.\n\n>>> 1 + 1\n3\n")
+    assert run(module).failed == 1
+    assert "Expected:" in capsys.readouterr().out
