@@ -10,6 +10,7 @@ from click.testing import CliRunner
 
 import oracle.crosscheck
 import oracle.trace
+from cases.corpus import read_corpus
 from cases.model import Cylinder, Difference, Ray, Slab, Sphere, Union, leaves
 from cases.table import PROBLEM_2, Row, Signs
 from oracle.commands.crosscheck import NAMES
@@ -210,3 +211,16 @@ def test_command_names_the_extra_to_install(monkeypatch: pytest.MonkeyPatch) -> 
     status, output = run("--fresh", "5")
     assert status == 3
     assert 'symbols needs no_such_module: pip install "raycert[symbols]"' in output
+
+
+@pytest.mark.parametrize("name", ["definition", "enclosure"])
+@pytest.mark.parametrize("precision", ["binary64", "binary32"])
+def test_every_golden_row_has_the_word_of_two_witnesses(name: str, precision: str) -> None:
+    """Not only when it was written: with the oracle and the witness as they are now."""
+    witness = load(name)
+    rows = read_corpus(precision).rows
+    found = {
+        row.id: witness(row.solid, row.ray, trace(row.solid, row.ray).intervals) for row in rows
+    }
+    assert {id: v for id, v in found.items() if v.outcome != "agreed"} == {}
+    assert len(found) > 5000

@@ -27,7 +27,8 @@ First steps:
   raycert certify reference             grade the built-in tracer
   raycert certify -- ./my_tracer        grade yours (it speaks JSON Lines)
   raycert list --families               what is tested, and why
-  raycert explain table/miss-ah         one case, derived step by step
+  raycert explain --cylinder 0,0,0 0,0,2 1 --ray=-3,0,1 1,0,0
+                                        one case, derived step by step
 
 Exit status: 0 granted or done, 1 not granted or differences found, 2 bad usage or
 input, 3 the target could not be run or nothing was tested.
