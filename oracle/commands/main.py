@@ -14,6 +14,10 @@ VERBS: dict[str, tuple[str, str]] = {
     "show": ("oracle.commands.listing:show", "Show golden rows in full."),
     "export": ("oracle.commands.export:export", "Write the golden cases as flat TSV."),
     "golden": ("oracle.commands.golden:golden", "Regenerate or check the golden files."),
+    "harness": (
+        "oracle.commands.harness:harness",
+        "Write a client to put your tracer into: C, C++, Rust, Go, Java, ...",
+    ),
     "crosscheck": (
         "oracle.commands.crosscheck:crosscheck",
         "Check the oracle by independent witnesses.",

@@ -1,0 +1,118 @@
+"""`raycert harness`: write a client of the line protocol, to put a tracer into."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from importlib.resources.abc import Traversable
+
+MARK = b"replace from here"
+"""Begins the one place, in one file of each language, that is the user's."""
+
+
+@dataclass(frozen=True, slots=True)
+class Starter:
+    """A language: its name, what is typed to build its client (may be nothing) and to run it."""
+
+    name: str
+    build: str
+    run: str
+
+
+STARTERS = {
+    "c": Starter(
+        "C",
+        "cc -std=c11 -O2 -ffp-contract=off -o tracer client.c tracer.c -lm",
+        "./tracer",
+    ),
+    "cpp": Starter(
+        "C++",
+        "c++ -std=c++17 -O2 -ffp-contract=off -o tracer client.cpp tracer.cpp",
+        "./tracer",
+    ),
+    "rust": Starter("Rust", "cargo build --release", "target/release/tracer"),
+    "go": Starter("Go", "go build", "./tracer"),
+    "java": Starter("Java", "javac Tracer.java", "java Tracer"),
+    "javascript": Starter("JavaScript", "", "node client.mjs"),
+    "python": Starter("Python", "", "python3 tracer.py"),
+}
+
+EPILOG = """\b
+Each client is complete, and granted `stable` as it is: a port of the reference tracer
+stands in the place that is marked for yours. It needs the language's own toolchain only.
+
+\b
+Examples:
+  raycert harness c --out my_tracer
+  raycert harness --list
+"""
+
+
+@click.command(epilog=EPILOG)
+@click.argument("lang", required=False)
+@click.option(
+    "--out",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Directory to write to  [default: tracer-LANG]",
+)
+@click.option("--force", is_flag=True, help="Overwrite files that are there.")
+@click.option("--list", "listing", is_flag=True, help="List the languages, and stop.")
+def harness(lang: str | None, out: Path | None, force: bool, listing: bool) -> None:
+    """Write a small client in LANG that speaks the line protocol, to put your tracer into."""
+    if listing:
+        for key, starter in STARTERS.items():
+            click.echo(f"{key:12}{starter.name:12}{starter.build or starter.run}")
+        return
+    if lang is None or lang not in STARTERS:
+        wrong = "no language is given" if lang is None else f"{lang!r} is not a language here"
+        raise click.UsageError(f"{wrong}; there are: {', '.join(STARTERS)}")
+    folder = out or Path(f"tracer-{lang}")
+    files = dict(templates(lang))
+    _write(folder, files, force)
+    _advise(STARTERS[lang], folder, files)
+
+
+def templates(lang: str) -> Iterator[tuple[str, bytes]]:
+    """Yield each file of a language's client: its path in the directory, and its bytes."""
+    from importlib.resources import files
+
+    yield from _walk(files("oracle.starters") / lang, "")
+
+
+def _walk(folder: Traversable, path: str) -> Iterator[tuple[str, bytes]]:
+    for entry in sorted(folder.iterdir(), key=lambda entry: entry.name):
+        if entry.is_file():
+            yield path + entry.name, entry.read_bytes()
+        elif entry.name != "__pycache__":  # pip compiles the Python one where it lies
+            yield from _walk(entry, f"{path}{entry.name}/")
+
+
+def _write(folder: Path, files: dict[str, bytes], force: bool) -> None:
+    """Write all the files, or none where one is there already."""
+    from cases.corpus import write_whole
+
+    there = [str(folder / name) for name in files if (folder / name).exists()]
+    if there and not force:
+        raise click.UsageError(f"already there: {', '.join(there)}; --force overwrites")
+    try:
+        for name, data in files.items():
+            write_whole(folder / name, data)
+    except OSError as error:
+        raise click.UsageError(f"cannot write to {folder}: {error}") from None
+
+
+def _advise(starter: Starter, folder: Path, files: dict[str, bytes]) -> None:
+    """Say where the user's place is, and the commands to type next."""
+    place = next(name for name, data in files.items() if MARK in data and name != "README.md")
+    enter = f"cd {shlex.quote(str(folder))}"
+    click.echo(f"Wrote {len(files)} files to {folder}. Your tracer goes into {place}, at the mark.")
+    click.echo("Next:")
+    click.echo(f"  {enter} && {starter.build}" if starter.build else f"  {enter}")
+    click.echo(f"  raycert certify --level stable -- {starter.run}")
