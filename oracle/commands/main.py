@@ -16,7 +16,7 @@ VERBS: dict[str, tuple[str, str]] = {
     "golden": ("oracle.commands.golden:golden", "Regenerate or check the golden files."),
     "harness": (
         "oracle.commands.harness:harness",
-        "Write a client to put your tracer into: C, C++, Rust, Go, Java, ...",
+        "Write a starter client in C, C++, Rust, Go, Java, ...",
     ),
     "crosscheck": (
         "oracle.commands.crosscheck:crosscheck",
