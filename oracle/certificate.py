@@ -69,6 +69,7 @@ def certificate(
 ) -> Json:
     """Return the certificate of a run."""
     groups = by_solid(grades)
+    usual = [g for g in grades if g.row.tier != "range"]
     return {
         "certificate": CERTIFICATE_VERSION,
         "granted": verdict.granted and not asked.selection and not ran.interrupted,
@@ -83,7 +84,10 @@ def certificate(
         "tested": len(grades),
         "not_tested": {"solids": list(left.solids), "rows": left.rows},
         "not_decisive": {
-            level: [g.row.id for g in grades if not g.counts(level) and g.row.tier != "range"]
+            level: {
+                "rows": [g.row.id for g in usual if not g.counts(level)],
+                "outside": [g.row.id for g in usual if level in g.outside],
+            }
             for level in ("sound", "stable")
         },
         "solids": {group.name: _solid(group) for group in groups},

@@ -7,7 +7,7 @@ exact judge. A failure to answer fails every level.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf
 
@@ -22,6 +22,7 @@ from oracle.judge import LEVELS, Judge, Level
 class Grade:
     """What came of one row. `faults` names, for each level it fails, the reason.
 
+    `outside` does so for the levels that the row does not decide; it is told, and not counted.
     `answer` is None where there was none. The errors are measured when they are asked for:
     `strict` and `squared` are the backward errors k, `ulps` the forward error; infinite where the
     answer is no list or has another number of pairs.
@@ -31,6 +32,7 @@ class Grade:
     answer: Numbers | None
     faults: Mapping[str, str]
     judge: Judge
+    outside: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
     def strict(self) -> float:
@@ -75,7 +77,8 @@ def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
     malformed = judge.malformed(answer)
     if malformed is not None:
         return Grade(row, answer, dict.fromkeys(LEVELS, malformed), judge)
-    return Grade(row, answer, _faults(row, answer, judge, hello), judge)
+    faults, outside = _faults(row, answer, judge, hello)
+    return Grade(row, answer, faults, judge, outside)
 
 
 def _failure(outcome: Reply | Failure) -> str | None:
@@ -86,16 +89,19 @@ def _failure(outcome: Reply | Failure) -> str | None:
     return None if outcome.error is None else f"error: {outcome.error}"
 
 
-def _faults(row: GoldenRow, answer: Numbers, judge: Judge, hello: Hello) -> dict[str, str]:
-    """Return, for each level that the row decides and the answer fails, the reason."""
+def _faults(
+    row: GoldenRow, answer: Numbers, judge: Judge, hello: Hello
+) -> tuple[dict[str, str], dict[str, str]]:
+    """Return the reasons why the answer fails levels: those the row decides, and the others."""
     faults: dict[str, str] = {}
-    before: str | None = None
+    outside: dict[str, str] = {}
     for level in LEVELS:
-        if level in row.decisive:
-            before = _level_fault(level, row, answer, judge, hello) or before
-        if before is not None and level in row.decisive:
-            faults[level] = before
-    return faults
+        fault = _level_fault(level, row, answer, judge, hello)
+        if level not in row.decisive:
+            outside |= {level: fault} if fault else {}
+        elif fault or faults:
+            faults[level] = fault or next(reversed(faults.values()))
+    return faults, outside
 
 
 def _level_fault(

@@ -107,10 +107,10 @@ def _notes(certificate: Json) -> list[str]:
     left = certificate["not_tested"]
     if left["solids"]:
         notes.append(f"not tested: {', '.join(left['solids'])} (no rows sent)")
-    few = {level: len(ids) for level, ids in certificate["not_decisive"].items() if ids}
-    if few:
-        counts = ", ".join(f"{n} rows for {level}" for level, n in few.items())
-        notes.append(f"not decisive, and not counted: {counts}")
+    for level, ids in certificate["not_decisive"].items():
+        if ids["rows"]:
+            wrong = f", {len(ids['outside'])} of them answered wrong" if ids["outside"] else ""
+            notes.append(f"{level}: {len(ids['rows'])} rows do not decide{wrong}; not counted")
     for name, solid in certificate["solids"].items():
         window = solid["windows"]["stable"]
         spans = [f"{what} {_span(*w)}" for what, w in window.items() if w]
