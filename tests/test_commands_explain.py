@@ -3,6 +3,8 @@
 import hashlib
 import json
 import shutil
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,6 +16,8 @@ from cases.formats import Format
 from cases.model import Cylinder, Ray
 from oracle.commands.explain import explain
 from oracle.golden import write
+from oracle.witness import symbols
+from oracle.witness.symbols import derivation
 
 UNIT = Cylinder((0, 0, 0), (0, 0, 2), 1)
 RAY = ("--ray=-3,0,1", "1,0,0")
@@ -210,3 +214,68 @@ def test_an_unknown_id_exits_2_with_near_ones(golden: Path) -> None:
     result = run("plain/trough", "--golden", str(golden))
     assert result.exit_code == 2
     assert "near: plain/through" in result.stderr
+
+
+@pytest.fixture(scope="module")
+def proofs() -> str:
+    result = run("--symbolic")
+    assert result.exit_code == 0
+    return result.stdout
+
+
+def test_symbolic_alone_prints_every_proof(proofs: str) -> None:
+    lines = proofs.splitlines()
+    assert max(map(len, lines)) <= 80
+    count = sum(line.endswith("  proved") for line in lines)
+    assert lines[-1] == f"{count} of {count} statements proved by SymPy"
+    assert count == len(derivation())
+    for heading in ("Symbols", "Problem 1", "Problem 2", "Sphere", "The case tables"):
+        assert lines.count(heading) == 1
+    assert "    F = l^2 (t^2 (vbar.vbar) + 2 t (vbar.ybar) + ybar.ybar - r^2)" in lines
+
+
+def test_symbolic_comes_before_the_case(proofs: str) -> None:
+    result = run("--symbolic", *CYLINDER, *RAY)
+    assert result.stdout == f"{proofs}\n{run(*CYLINDER, *RAY).stdout}"
+
+
+def test_symbolic_as_data() -> None:
+    alone = json.loads(run("--symbolic", "--format", "json").stdout)
+    assert list(alone) == ["symbolic"]
+    assert {"title": "1 (a) is zero at", "text": "s0 = (x - p).h", "proved": True} in alone[
+        "symbolic"
+    ]
+    both = json.loads(run("--symbolic", "--format", "json", *CYLINDER, *RAY).stdout)
+    case = json.loads(run("--format", "json", *CYLINDER, *RAY).stdout)
+    assert both == alone | case
+
+
+def test_a_failed_proof_exits_1(monkeypatch: pytest.MonkeyPatch) -> None:
+    wrong = (("1 (a) is zero at", "s0 = (x + p) @ h"), *symbols.PROOFS[:2])
+    monkeypatch.setattr(symbols, "PROOFS", wrong)
+    monkeypatch.setattr(symbols, "table_proofs", lambda: iter(()))
+    result = run("--symbolic")
+    assert result.exit_code == 1
+    assert "NOT PROVED\n    s0 = (x + p).h" in result.stdout
+    assert "2 of 3 statements proved" in result.stdout
+
+
+def test_symbolic_without_sympy_exits_3(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "sympy", None)
+    for name in [name for name in sys.modules if name.startswith("oracle.witness.symbols")]:
+        monkeypatch.delitem(sys.modules, name)
+    result = run("--symbolic", *CYLINDER, *RAY)
+    assert result.exit_code == 3
+    assert result.stdout == ""
+    assert result.stderr == 'raycert: symbols needs sympy: pip install "raycert[symbols]"\n'
+
+
+@pytest.mark.parametrize(("words", "loaded"), [((), False), (("--symbolic",), True)])
+def test_sympy_is_loaded_only_for_it(words: tuple[str, ...], loaded: bool) -> None:
+    code = (
+        "import sys; from oracle.commands.explain import explain;"
+        f"explain({[*words, *CYLINDER, *RAY]}, standalone_mode=False);"
+        "print('sympy' in sys.modules)"
+    )
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert result.stdout.endswith(f"{loaded}\n"), result.stderr

@@ -1,4 +1,4 @@
-"""Laws of the oracle: what moving, turning and scaling a scene does to its answer, exactly.
+"""Laws of the leaves and of their lists, exactly; those of trees are in `test_laws_trees`.
 
 Scenes are drawn from a small grid, so that tangents, rims, rays in faces, starts on surfaces and
 zero directions occur all the time. No tolerance anywhere.
@@ -6,9 +6,7 @@ zero directions occur all the time. No tolerance anywhere.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import fields, replace
-from fractions import Fraction
+from dataclasses import replace
 from itertools import permutations
 
 from hypothesis import given, settings
@@ -28,8 +26,7 @@ from cases.model import (
     Union,
     Vector,
 )
-from oracle.intervals import EVERYTHING, Intervals, contains, intersect, subtract, union
-from oracle.surd import INFINITY, ZERO, Surd, fraction
+from oracle.intervals import EVERYTHING, contains, intersect, subtract, union
 from oracle.trace import trace
 
 whole = st.integers(-4, 4).map(float)
@@ -81,7 +78,6 @@ carved = st.builds(
 )
 solids: st.SearchStrategy[Solid] = st.one_of(leaves, trees, carved)
 """Blocks are large, so that much is left when something is cut away."""
-LENGTHS = {"point", "center", "p", "q"}
 
 
 def combine(a: Vector, b: Vector, t: float) -> Vector:
@@ -91,119 +87,6 @@ def combine(a: Vector, b: Vector, t: float) -> Vector:
 
 def times(k: float, a: Vector) -> Vector:
     return (k * a[0], k * a[1], k * a[2])
-
-
-def changed(
-    solid: Solid,
-    point: Callable[[Vector], Vector],
-    vector: Callable[[Vector], Vector],
-    length: Callable[[float], float] = lambda r: r,
-) -> Solid:
-    """Return a solid with its points, its normals and its radii mapped."""
-    new: dict[str, object] = {}
-    for field in fields(solid):
-        value = getattr(solid, field.name)
-        if field.name == "of":
-            new["of"] = tuple(changed(part, point, vector, length) for part in value)
-        elif field.name == "radius":
-            new["radius"] = length(value)
-        else:
-            new[field.name] = (point if field.name in LENGTHS else vector)(value)
-    return replace(solid, **new)
-
-
-def shifted(t: Surd, by: Fraction, factor: Fraction = Fraction(1)) -> Surd:
-    """Return factor t + by, factor != 0; infinity stays."""
-    if not t.finite:
-        return t
-    m, n = factor.as_integer_ratio()
-    a, b = by.as_integer_ratio()
-    return Surd(m * t.x * b + a * t.z * n, m * t.y * b, t.d, t.z * n * b)
-
-
-def within(intervals: Intervals, low: Fraction, high: Fraction | None) -> Intervals:
-    """Return what lies between `low` and `high`, without single points at either."""
-    ends = [INFINITY if x is None else fraction(*x.as_integer_ratio()) for x in (low, high)]
-    window = ((ends[0], ends[1]),)
-    return tuple((a, b) for a, b in intersect(intervals, window) if a < b or a not in ends)
-
-
-@given(solids, rays, st.integers(1, 6))
-def test_the_reversed_ray_sees_the_same(solid: Solid, ray: Ray, far: int) -> None:
-    """From u + T v back along -v, t becomes T - t. A start alone is left out: see `within`."""
-    back = Ray(combine(ray.origin, ray.direction, far), times(-1, ray.direction))
-    there, turned = trace(solid, ray).intervals, trace(solid, back).intervals
-    window = Fraction(0), Fraction(far)
-    mirrored = tuple(
-        (shifted(b, Fraction(far), Fraction(-1)), shifted(a, Fraction(far), Fraction(-1)))
-        for a, b in reversed(within(turned, *window))
-    )
-    assert within(there, *window) == mirrored
-
-
-@given(leaves, rays, st.integers(1, 6))
-def test_of_a_leaf_the_reversed_ray_sees_single_points_too(leaf: Solid, ray: Ray, far: int) -> None:
-    """A leaf is closed, so the list on [0, T] is the same set either way."""
-    back = Ray(combine(ray.origin, ray.direction, far), times(-1, ray.direction))
-    window = ((ZERO, fraction(far, 1)),)
-    there = intersect(trace(leaf, ray).intervals, window)
-    turned = intersect(trace(leaf, back).intervals, window)
-    minus, by = Fraction(-1), Fraction(far)
-    assert there == tuple((shifted(b, by, minus), shifted(a, by, minus)) for a, b in turned)
-
-
-@given(solids, rays, st.integers(-24, 24).map(lambda n: n / 8))
-def test_a_start_further_along_shifts_the_list(solid: Solid, ray: Ray, dt: float) -> None:
-    moved = Ray(combine(ray.origin, ray.direction, dt), ray.direction)
-    by = Fraction(dt)
-    old, new = trace(solid, ray).intervals, trace(solid, moved).intervals
-    low = max(Fraction(0), -by)
-    later = tuple((shifted(a, -by), shifted(b, -by)) for a, b in within(old, low + by, None))
-    assert within(new, low, None) == later
-
-
-@given(solids, rays, st.integers(-60, 60))
-def test_scaling_the_scene_changes_nothing(solid: Solid, ray: Ray, k: int) -> None:
-    def scale(a: Vector) -> Vector:
-        return times(2.0**k, a)
-
-    big = changed(solid, scale, scale, lambda r: r * 2.0**k)
-    assert trace(big, Ray(scale(ray.origin), scale(ray.direction))) == trace(solid, ray)
-
-
-@given(solids, rays, st.integers(-60, 60))
-def test_a_longer_direction_shortens_t(solid: Solid, ray: Ray, k: int) -> None:
-    faster = trace(solid, Ray(ray.origin, times(2.0**k, ray.direction)))
-    slow = trace(solid, ray)
-    if any(ray.direction):
-        factor = Fraction(1, 2) ** k if k >= 0 else Fraction(2) ** -k
-        by = Fraction(0)
-        assert faster.intervals == tuple(
-            (shifted(a, by, factor), shifted(b, by, factor)) for a, b in slow.intervals
-        )
-    assert faster.decisions == slow.decisions
-
-
-@given(solids, rays, points)
-def test_moving_the_scene_changes_nothing(solid: Solid, ray: Ray, by: Vector) -> None:
-    far = times(1 / 8, combine(by, (3.0, 5.0, 7.0), 2.0**20))
-
-    def move(a: Vector) -> Vector:
-        return combine(a, far, 1)
-
-    moved = changed(solid, move, lambda n: n)
-    assert trace(moved, Ray(move(ray.origin), ray.direction)) == trace(solid, ray)
-
-
-@given(solids, rays, st.permutations(range(3)), st.tuples(*[st.sampled_from([1.0, -1.0])] * 3))
-def test_axes_may_be_exchanged_and_mirrored(
-    solid: Solid, ray: Ray, order: list[int], signs: Vector
-) -> None:
-    def turn(a: Vector) -> Vector:
-        return (signs[0] * a[order[0]], signs[1] * a[order[1]], signs[2] * a[order[2]])
-
-    turned = changed(solid, turn, turn)
-    assert trace(turned, Ray(turn(ray.origin), turn(ray.direction))) == trace(solid, ray)
 
 
 SWAPPED = {"AE": "AE", "BE": "AF", "AF": "BE", "AH": "DE", "DE": "AH", "BG": "CF", "CF": "BG"}
@@ -276,14 +159,4 @@ def test_booleans_are_the_algebra_of_their_parts(parts: list[Solid], ray: Ray) -
         for i in order[1:]:
             rest = subtract(rest, lists[i])
         once = trace(Difference(some), ray).intervals
-        assert contains(once, tuple((a, b) for a, b in rest if a < b))
-        assert once == subtract(lists[order[0]], union(lists[i] for i in order[1:]))
-
-
-@given(solids, rays)
-def test_the_zero_direction_stays_where_it_is(solid: Solid, ray: Ray) -> None:
-    still = trace(solid, Ray(ray.origin, (0.0, -0.0, 0.0))).intervals
-    assert still in ((), EVERYTHING)
-    if not isinstance(solid, Tree):
-        starts = trace(solid, ray).intervals
-        assert bool(still) == bool(starts and starts[0][0] == ZERO)
+        assert once == rest == subtract(lists[order[0]], union(lists[i] for i in order[1:]))

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from cases.forms import Json
     from oracle.derivation.derive import Derivation
     from oracle.derivation.form import Fact
+    from oracle.witness.symbols import Statement
 
 SHAPES = {
     "cylinder": ("p", "q", "radius"),
@@ -41,6 +42,7 @@ Examples:
   raycert explain --cylinder 0,0,0 0,0,2 1 --ray=-3,0,1 1,0,0
   raycert explain --half-space 0,0,1 0,0,1 --ray 0,0,0 0,0,0.1
   raycert show behind/across-just-past --json | raycert explain --json -
+  raycert explain --symbolic
   raycert explain --json - <<< '{"solid": {"type": "sphere", "center": [0,0,0],
       "radius": 1}, "ray": {"origin": [-3,0,0], "direction": [1,0,0]}}'
 """
@@ -74,9 +76,14 @@ def _shape(name: str) -> Callable[[Decorated], Decorated]:
     help="json: the golden row and the steps, as data.",
 )
 @click.option("--full", is_flag=True, help="Long integers in full.")
+@click.option(
+    "--symbolic",
+    is_flag=True,
+    help="Before the case, or alone: SymPy's proofs of the formulas used.",
+)
 @precision_option
 @golden_option
-def explain(id: str | None, form: str, full: bool, **options: Any) -> None:
+def explain(id: str | None, form: str, full: bool, symbolic: bool, **options: Any) -> None:
     """Derive one case in the seed's steps: every quantity of its three problems, exactly.
 
     Shown are the row of each table that holds and why the others do not, the endpoints exactly
@@ -85,7 +92,25 @@ def explain(id: str | None, form: str, full: bool, **options: Any) -> None:
     The case is a golden row by its ID, or a solid and a ray by options, or an object of the line
     protocol by --json (the only way for a union, an intersection or a difference). Vectors are
     x,y,z without blanks; numbers are decimals or hex floats such as 0x1.8p-3.
+
+    --symbolic needs no case. It derives the seed's formulas from the definitions and proves them
+    equal to the oracle's code, run on symbols; exit 1 if a proof fails, 3 without SymPy.
     """
+    given = bool(id) + bool(options["file"])
+    given += bool(options["ray"] or any(options[name] for name in SHAPES))
+    if given > 1 or not (given or symbolic):
+        raise click.UsageError("give one case: an ID, or --json, or a solid with --ray")
+    derivation = _derivation(id, options) if given else None
+    statements = None
+    if symbolic:
+        from oracle.commands.symbolic import proofs
+
+        statements = proofs()
+    _show(derivation, statements, form, full)
+
+
+def _derivation(id: str | None, options: dict[str, Any]) -> Derivation:
+    """Return the derivation of the case that the words name."""
     from dataclasses import replace
 
     from cases.formats import FORMATS
@@ -93,38 +118,57 @@ def explain(id: str | None, form: str, full: bool, **options: Any) -> None:
     from oracle.derivation.form import Step
 
     fmt = FORMATS[options["precision"]]
-    shapes = [name for name in SHAPES if options[name]]
-    ways = bool(id) + bool(options["file"]) + bool(shapes or options["ray"])
-    if ways != 1:
-        raise click.UsageError("give one case: an ID, or --json, or a solid with --ray")
     if id:
-        _show(_from_golden(id, options), form, full)
-        return
+        return _from_golden(id, options)
     rounded: list[Fact] = []
     if options["file"]:
         case = _from_json(options["file"].read(), fmt)
     else:
-        case = given(*_from_words(shapes, options, fmt, rounded))
+        case = given(*_from_words(options, fmt, rounded))
     derivation = derive(case, fmt)
-    if rounded:
-        taken = Step(f"Taken as {fmt.name} numbers", tuple(rounded))
-        derivation = replace(derivation, steps=(taken, *derivation.steps))
-    _show(derivation, form, full)
+    if not rounded:
+        return derivation
+    taken = Step(f"Taken as {fmt.name} numbers", tuple(rounded))
+    return replace(derivation, steps=(taken, *derivation.steps))
 
 
-def _show(derivation: Derivation, form: str, full: bool) -> None:
-    if form == "json":
-        import json
-
-        from oracle.derivation.derive import to_json
-
-        click.echo(json.dumps(to_json(derivation), indent=1))
-        return
+def _show(
+    derivation: Derivation | None, statements: list[Statement] | None, form: str, full: bool
+) -> None:
+    """Print the proofs, then the case; exit 1 where a proof failed."""
     from rich.console import Console
 
-    from oracle.derivation.text import show
+    console = Console()
+    if form == "json":
+        _show_json(derivation, statements)
+    else:
+        if statements is not None:
+            from oracle.commands.symbolic import show_proofs
 
-    show(derivation, Console(), full)
+            show_proofs(statements, console)
+        if derivation is not None:
+            from oracle.derivation.text import show
+
+            if statements is not None:
+                console.print()
+            show(derivation, console, full)
+    if not all(statement.proved for statement in statements or ()):
+        raise SystemExit(1)
+
+
+def _show_json(derivation: Derivation | None, statements: list[Statement] | None) -> None:
+    import json
+
+    form: dict[str, Any] = {}
+    if statements is not None:
+        from oracle.commands.symbolic import to_json as proofs_to_json
+
+        form["symbolic"] = proofs_to_json(statements)
+    if derivation is not None:
+        from oracle.derivation.derive import to_json
+
+        form |= to_json(derivation)
+    click.echo(json.dumps(form, indent=1))
 
 
 def _from_golden(id: str, options: dict[str, Any]) -> Derivation:
@@ -172,13 +216,12 @@ def _advice(fmt: Format) -> str:
     return "" if fmt.name == "binary64" else f" (for --precision {fmt.name})"
 
 
-def _from_words(
-    shapes: list[str], options: dict[str, Any], fmt: Format, rounded: list[Fact]
-) -> tuple[Any, Any]:
+def _from_words(options: dict[str, Any], fmt: Format, rounded: list[Fact]) -> tuple[Any, Any]:
     """Return the solid and the ray of the options; note in `rounded` each number not exact."""
     from cases.forms import read_ray, read_solid
     from cases.model import Refused
 
+    shapes = [name for name in SHAPES if options[name]]
     if len(shapes) != 1 or not options["ray"]:
         raise click.UsageError("give one solid and its ray: --cylinder P Q R --ray U V")
     name = shapes[0]
