@@ -41,6 +41,13 @@ AIMS: tuple[Aim, ...] = (
     ("balls", "two spheres", any_of(ball(3, -6), ball(3, 6)), (0, 0, 0), (1, 0, 0),
      ((-9, -3), (3, 9)), UPRIGHT),
     ("drilled", "a drilled sphere", DRILLED, (0, 4, 0), (3, 0, 0), ((-1, 1),), SEVENTHS),
+    ("edge-of-two", "two spheres, 24/25 of a radius off the centre",
+     any_of(ball(25), ball(25, 0, -60)), (0, 24, 0), (7, 0, 0), ((-1, 1),), UPRIGHT),
+    ("edge-of-rest", "a bored sphere, 24/25 of a radius off the centre",
+     less(ball(25), rod((0, 0, -60), (0, 0, 60), 20)), (0, 24, 0), (7, 0, 0), ((-1, 1),), UPRIGHT),
+    ("edge-of-both", "a sphere within a cylinder, 24/25 of a radius off the centre",
+     all_of(ball(25), rod((0, 0, -60), (0, 0, 60), 25)), (0, 24, 0), (7, 0, 0), ((-1, 1),),
+     UPRIGHT),
     ("bore", "a tube, down the bore", TUBE, (1, 1, 0), (0, 0, 4), (), UPRIGHT),
 )  # fmt: skip
 

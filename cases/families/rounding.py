@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from cases.case import Case, Family
-from cases.families.frames import DOWN_X, ON_Y, UPRIGHT, Number
+from cases.families.frames import DOWN_X, ON_Y, UPRIGHT, Exact, Number
 from cases.families.ladders import is_double, power
 from cases.families.sketch import (
     Body,
@@ -145,6 +145,7 @@ def _hard(fmt: Format) -> Iterator[Case]:
                     tier="stiff",
                     flags=("hard-to-round",),
                 )
+        yield from _other_side(fmt, j)
         for sign, side in ((1, "above"), (-1, "below")):
             level = -1 - half_unit(fmt)
             yield row(
@@ -157,6 +158,31 @@ def _hard(fmt: Format) -> Iterator[Case]:
                 tier="stiff",
                 flags=("hard-to-round",),
                 known=pair(0, START - level + sign * two(-j)),
+            )
+
+
+def _other_side(fmt: Format, j: int) -> Iterator[Case]:
+    """Yield irrational ends on the other side of their ties: a chord longer by 3/4 2^-2j each way.
+
+    The chord at 3/5 of the radius 5 u has its ends at ties (`_skew_ties`). Here the axis is 3 u off
+    and the ray 2^-2j nearer to it, which no single number could say.
+    """
+    for count, word in NEIGHBOURS:
+        unit = 1 + count * two(5 - fmt.precision)
+        axis: tuple[Exact, Exact] = ((0, 3 * unit, 0), (0, 3 * unit, 2))
+        for kind, name in (
+            ("infinite_cylinder", "an infinite cylinder"),
+            ("cylinder", "a cylinder"),
+        ):
+            yield row(
+                fmt,
+                f"{kind.replace('_', '-')}-{word}-wide-{power(-2 * j)}",
+                f"Both ends of {name} are 3/4 of 2^-{2 * j} outside the {word} tie",
+                Body(kind, *axis, 5 * unit),
+                (-40, two(-2 * j), 1),
+                (1, 0, 0),
+                tier="stiff",
+                flags=("hard-to-round",),
             )
 
 

@@ -90,15 +90,15 @@ def _near_surface(fmt: Format) -> Iterator[Case]:
                 )
 
 
-POINT = ball(0)
+POINT = ball(0, 0, 0, 8)  # off the coordinate origin: there, s(0) = 0 and no face would ever move
 POINTS: tuple[tuple[str, str, Exact, Exact, Pairs], ...] = (
-    ("met", "meets a point", (-8, 0, 0), (4, 0, 0), touch(2)),
-    ("met-skew", "meets a point on a slant", (-6, 8, 4), (3, -4, -2), touch(2)),
-    ("left", "starts at a point and leaves it", (0, 0, 0), (1, 2, 3), touch(0)),
-    ("passed", "passes a point", (-8, 1, 0), (4, 0, 0), MISS),
-    ("behind", "has met a point before its start", (8, 0, 0), (4, 0, 0), MISS),
-    ("rest-on", "with no direction rests on a point", (0, 0, 0), (0, 0, 0), ALWAYS),
-    ("rest-beside", "with no direction rests beside a point", (0, 0, 1), (0, 0, 0), MISS),
+    ("met", "meets a point", (-8, 0, 8), (4, 0, 0), touch(2)),
+    ("met-skew", "meets a point on a slant", (-6, 8, 12), (3, -4, -2), touch(2)),
+    ("left", "starts at a point and leaves it", (0, 0, 8), (1, 2, 3), touch(0)),
+    ("passed", "passes a point", (-8, 1, 8), (4, 0, 0), MISS),
+    ("behind", "has met a point before its start", (8, 0, 8), (4, 0, 0), MISS),
+    ("rest-on", "with no direction rests on a point", (0, 0, 8), (0, 0, 0), ALWAYS),
+    ("rest-beside", "with no direction rests beside a point", (0, 0, 9), (0, 0, 0), MISS),
 )
 
 
