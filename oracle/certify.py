@@ -176,10 +176,13 @@ class Verdict:
     reasons: tuple[str, ...]
 
 
+NOTHING = Verdict(False, ("nothing was tested",))
+
+
 def verdict(grades: Sequence[Grade], level: Level, wanted: str) -> Verdict:
     """Return the verdict on a run: every solid type tested reaches the level and the convention."""
     if not any(g.counts(level) and g.row.tier != "range" for g in grades):
-        return Verdict(False, ("nothing was tested",))
+        return NOTHING
     reasons = []
     for group in by_solid(grades):
         for lower in LEVELS[: LEVELS.index(level) + 1]:

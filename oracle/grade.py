@@ -6,7 +6,7 @@ exact judge. A failure to answer fails every level.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf
@@ -15,7 +15,8 @@ from cases.accept import Numbers
 from cases.protocol import Hello, Reply, convention
 from cases.row import GoldenRow
 from oracle.client.process import Failure
-from oracle.judge import LEVELS, Judge, Level
+from oracle.decisive import decisive
+from oracle.judge import LEVELS, MEASURES, Judge, Level
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,7 @@ class Grade:
     answer: Numbers | None
     faults: Mapping[str, str]
     judge: Judge
+    decides: tuple[str, ...] = ()
     outside: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
@@ -54,8 +56,8 @@ class Grade:
         return self.faults.get(level)
 
     def counts(self, level: Level) -> bool:
-        """Tell whether the row is decisive for a level, or fails whatever it decides."""
-        return level in self.row.decisive or level in self.faults
+        """Tell whether the row decides a level, or fails whatever it decides."""
+        return level in self.decides or level in self.faults
 
     @property
     def keeps_touch(self) -> bool | None:
@@ -71,14 +73,26 @@ def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
     judge = Judge(row.solid, row.ray, hello.format, row.tier, hello.tolerance)
     failure = _failure(outcome)
     if failure is not None:
-        return Grade(row, None, dict.fromkeys(LEVELS, failure), judge)
+        return Grade(row, None, dict.fromkeys(LEVELS, failure), judge, row.decisive)
     assert isinstance(outcome, Reply)
     answer = tuple((a + 0.0, b + 0.0) for a, b in outcome.intervals or ())
     malformed = judge.malformed(answer)
     if malformed is not None:
-        return Grade(row, answer, dict.fromkeys(LEVELS, malformed), judge)
-    faults, outside = _faults(row, answer, judge, hello)
-    return Grade(row, answer, faults, judge, outside)
+        return Grade(row, answer, dict.fromkeys(LEVELS, malformed), judge, row.decisive)
+    decides = deciding(row, judge)
+    faults, outside = _faults(row, answer, judge, hello, decides)
+    return Grade(row, answer, faults, judge, decides, outside)
+
+
+def deciding(row: GoldenRow, judge: Judge) -> tuple[str, ...]:
+    """Return the levels that a row decides for a client, whose tolerance may take some away.
+
+    A tolerance beyond c, 1/8 of the smallest radius or thickness, would excuse a gross answer.
+    """
+    if not judge.tolerance:
+        return row.decisive
+    finer = tuple(level for level in LEVELS if level not in MEASURES)
+    return decisive(judge) if judge.scene.tolerance_is_fine() else finer
 
 
 def _failure(outcome: Reply | Failure) -> str | None:
@@ -90,14 +104,14 @@ def _failure(outcome: Reply | Failure) -> str | None:
 
 
 def _faults(
-    row: GoldenRow, answer: Numbers, judge: Judge, hello: Hello
+    row: GoldenRow, answer: Numbers, judge: Judge, hello: Hello, decides: Collection[str]
 ) -> tuple[dict[str, str], dict[str, str]]:
     """Return the reasons why the answer fails levels: those the row decides, and the others."""
     faults: dict[str, str] = {}
     outside: dict[str, str] = {}
     for level in LEVELS:
         fault = _level_fault(level, row, answer, judge, hello)
-        if level not in row.decisive:
+        if level not in decides:
             outside |= {level: fault} if fault else {}
         elif fault or faults:
             faults[level] = fault or next(reversed(faults.values()))

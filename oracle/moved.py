@@ -219,6 +219,12 @@ class Scene:
         squares = (s0 * s0, 2 * s0 * s1, s1 * s1)
         return Shift(d0, d1, *(k.times(s, bits + 2) for s in squares))
 
+    def tolerance_is_fine(self) -> bool:
+        """Tell whether the declared tolerance is at most each leaf's c; half-spaces have none."""
+        tolerance = self.grid.scalar(self.tolerance)
+        solid = [leaf for _, leaf in leaves(self.solid) if not isinstance(leaf, HalfSpace)]
+        return all(tolerance <= self.constant(leaf).d0 for leaf in solid)
+
     def constant(self, leaf: Leaf) -> Shift:
         """Return the move by c: 1/8 of the smaller of radius and thickness, 0 for a half-space."""
         return Shift(thinness(leaf, self.grid) >> 3)

@@ -153,11 +153,16 @@ def _decimal(text: str) -> str:
 
 def _verdict(certificate: Json) -> Text:
     asked, subject = certificate["asked"], certificate["subject"]["name"]
-    what = f"{asked['level']} and {asked['convention']}"
-    tested = f"{certificate['tested']} rows of corpus {certificate['corpus']['version']}"
+    tested = {solid["convention"] for solid in certificate["solids"].values()} - {"not tested"}
+    what = f"{asked['level']} and {asked['convention'] if tested else '(convention not tested)'}"
+    if tolerance := certificate["subject"]["tolerance"]:
+        what += f", faces moved by a tolerance of {tolerance:g},"
+    if certificate["run"]["interrupted"]:
+        what += " (interrupted)"
+    rows = f"{certificate['tested']} rows of corpus {certificate['corpus']['version']}"
     if certificate["granted"]:
-        return Text(f"\n{subject} is granted {what}: {tested}", "bold green")
+        return Text(f"\n{subject} is granted {what}: {rows}", "bold green")
     if certificate["passed"]:
-        return Text(f"\n{subject} passes {what} on a part: {tested}; not a certificate", "bold")
+        return Text(f"\n{subject} passes {what} on a part: {rows}; not a certificate", "bold")
     lines = "".join(f"\n  {reason}" for reason in certificate["reasons"])
     return Text(f"\n{subject} is not granted {what}:{lines}", "bold red")

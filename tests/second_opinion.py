@@ -16,7 +16,7 @@ from math import inf, ldexp
 from typing import Any
 
 from mpmath import iv
-from mpmath.libmp import to_rational
+from mpmath.libmp import finf, fnan, fninf, to_rational
 
 from cases.formats import Format
 from cases.model import Cylinder, HalfSpace, InfiniteCylinder, Leaf, Ray, Slab, Sphere, Vector
@@ -261,7 +261,10 @@ def nearest(number: Number | None, fmt: Format) -> float:
         return 0.0
     for bits in precisions():
         value = number.around()
-        low, high = (Fraction(*to_rational(end._mpi_[0])) for end in (value.a, value.b))
+        ends = value.a._mpi_[0], value.b._mpi_[0]
+        if {finf, fninf, fnan}.intersection(ends):
+            continue  # a divisor not yet told from 0
+        low, high = (Fraction(*to_rational(end)) for end in ends)
         step = grid(low, fmt)
         floor = low // step * step
         middle = floor + step / 2

@@ -7,9 +7,9 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-import tracers
 from click.testing import CliRunner
 
+import oracle
 from cases.corpus import Corpus, read_corpus
 from cases.model import Ray, Solid, type_of
 from cases.protocol import Hello, Reply
@@ -19,10 +19,13 @@ from oracle.client.process import Failure
 from oracle.commands.certify import certify
 from oracle.grade import Grade, grade
 from oracle.judge import Level
+from oracle.zoo import sound
+from oracle.zoo.catalog import BY_NAME
 from reference.tracer import intersect
 
 Intersect = Callable[[Solid, Ray], Iterable[tuple[float, float]]]
 HELLO = Hello("a tracer")
+SOUND = {animal.name: animal.tracer for animal in sound.SOUND}
 SOLIDS = ("half_space", "slab", "infinite_cylinder", "cylinder")
 
 
@@ -53,9 +56,9 @@ def failing(graded: Iterable[Grade], level: Level) -> dict[str, int]:
     return {group.name: len(group.grades) for group in by_family(failed)}
 
 
-@pytest.mark.parametrize("name", ["projected", "local_frame"])
+@pytest.mark.parametrize("name", ["projected", "local-frame"])
 def test_sound_tracers_are_stable(name: str) -> None:
-    judged = verdict(grades(tracers.SOUND[name]), "stable", "closed")
+    judged = verdict(grades(SOUND[name]), "stable", "closed")
     assert judged.granted, judged.reasons
 
 
@@ -66,7 +69,7 @@ def test_the_reference_is_stable_and_closed() -> None:
 
 
 def test_the_textbook_is_sound_and_not_stable_far_away_and_on_needles() -> None:
-    graded = grades(tracers.SOUND["textbook"])
+    graded = grades(SOUND["textbook"])
     assert verdict(graded, "sound", "closed").granted
     judged = verdict(graded, "stable", "closed")
     assert not judged.granted
@@ -78,14 +81,14 @@ def test_the_textbook_is_sound_and_not_stable_far_away_and_on_needles() -> None:
 @pytest.mark.parametrize(
     ("name", "family", "solids"),
     [
-        ("no_caps", "perpendicular", ("cylinder",)),
-        ("no_parallel_case", "parallel", ("cylinder", "infinite_cylinder")),
-        ("no_clip", "behind", SOLIDS),
-        ("swapped_pair", "start-inside", SOLIDS),
+        ("caps-forgotten", "perpendicular", ("cylinder",)),
+        ("parallel-missed", "parallel", ("cylinder", "infinite_cylinder")),
+        ("no-clip", "behind", SOLIDS),
+        ("swapped", "start-inside", SOLIDS),
     ],
 )
 def test_faults_are_refused_everything(name: str, family: str, solids: tuple[str, ...]) -> None:
-    graded = grades(tracers.FAULTS[name])
+    graded = grades(BY_NAME[name].make())
     for level in ("sound", "stable", "faithful", "exact"):
         judged = verdict(graded, level, "closed")  # type: ignore[arg-type]
         assert not judged.granted
@@ -131,10 +134,10 @@ def test_nothing_tested_is_never_granted() -> None:
 def client(folder: Path, name: str) -> list[str]:
     """Write a program that serves one of the planted tracers."""
     script = folder / "client.py"
-    here = Path(__file__).parent
+    here = Path(str(oracle.__file__)).parent.parent
     script.write_text(
         f"import sys; sys.path.insert(0, {str(here)!r})\n"
-        "import tracers\n"
+        "from oracle.zoo.catalog import BY_NAME\n"
         "from cases.protocol import Hello\n"
         "from cases.serve import serve\n"
         f"serve({name}, Hello('planted', solids={SOLIDS!r}))\n"
@@ -144,7 +147,7 @@ def client(folder: Path, name: str) -> list[str]:
 
 def test_the_report_names_family_row_and_how_to_repeat(tmp_path: Path) -> None:
     out = tmp_path / "certificate.json"
-    command = client(tmp_path, "tracers.FAULTS['no_caps']")
+    command = client(tmp_path, "BY_NAME['caps-forgotten'].make()")
     options = ["--family", "perpendicular", "--out", str(out), "--", *command]
     result = CliRunner().invoke(certify, options)
     assert result.exit_code == 1, result.output
@@ -187,3 +190,39 @@ def test_bad_usage_says_what_is_wrong(
     result = CliRunner().invoke(certify, [*options, "--out", str(tmp_path / "c.json")][::1])
     assert result.exit_code == code, result.output
     assert words in result.output
+
+
+def test_a_tolerance_beyond_c_decides_nothing() -> None:
+    """A tolerance that swallows the solid buys no level; a fine one leaves its rows to decide."""
+    rows = [row for row in corpus().rows if row.family == "perpendicular"]
+    for tolerance, decided in ((1e300, False), (2.0**-40, True)):
+        hello = Hello("tolerant", tolerance=tolerance)
+        graded = [grade(row, Reply(row.id, intervals=row.expected), hello) for row in rows]
+        curved = [g for g in graded if type_of(g.row.solid) == "cylinder"]
+        assert curved
+        assert all(g.counts("stable") == decided for g in curved)
+        assert verdict(curved, "stable", "closed").granted == decided
+
+
+def test_an_answer_within_the_tolerance_is_stable_and_beyond_it_is_not() -> None:
+    crossed = (r for r in corpus().rows if r.family == "perpendicular" and r.expected)
+    row = next(row for row in crossed if 0 < row.expected[0][0] < row.expected[0][1] < 99)
+    off = tuple((a - 2.0**-41, b + 2.0**-41) for a, b in row.expected)
+    for tolerance, right in ((2.0**-36, True), (0.0, False)):
+        hello = Hello("tolerant", tolerance=tolerance)
+        graded = grade(row, Reply(row.id, intervals=off), hello)
+        assert (graded.fault("stable") is None) == right
+
+
+def test_a_row_of_no_level_tests_nothing(tmp_path: Path) -> None:
+    options = ["oracle", "--tier", "range", "--out", str(tmp_path / "c.json")]
+    result = CliRunner().invoke(certify, options)
+    assert result.exit_code == 3, result.output
+    assert "nothing was tested" in result.output
+
+
+def test_a_certificate_that_cannot_be_written_is_refused_before_the_run(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    result = CliRunner().invoke(certify, ["oracle", "--out", str(tmp_path / "file" / "c.json")])
+    assert result.exit_code == 2, result.output
+    assert "cannot write" in result.output

@@ -46,6 +46,15 @@ def test_the_oracle_agrees_where_everything_touches(leaf: Leaf, ray: Ray, fmt: F
     assert tuple(other.second_opinion(leaf, ray, fmt)) == Judge(leaf, ray, fmt).expected
 
 
+def test_a_divisor_is_told_from_zero_before_anything_is_rounded() -> None:
+    """Nearly parallel by 2^-390: intervals of 512 bits still give every t."""
+    leaf = InfiniteCylinder((0, 0, 0), (1, 1, 5.34452229675669e-118), 0)
+    ray = Ray((0, 0, 1), (1, 1, 0))
+    truth = Judge(leaf, ray, BINARY64).expected
+    assert truth[0][0] > 1e117
+    assert tuple(other.second_opinion(leaf, ray, BINARY64)) == truth
+
+
 anything = st.floats(allow_nan=False, allow_infinity=False)
 wild_points = st.tuples(anything, anything, anything)
 

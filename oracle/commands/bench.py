@@ -11,7 +11,13 @@ if TYPE_CHECKING:
 
 
 @click.command()
-@click.option("--rays", default=100, show_default=True, help="Rays that every method answers.")
+@click.option(
+    "--rays",
+    type=click.IntRange(min=1),
+    default=100,
+    show_default=True,
+    help="Rays that every method answers.",
+)
 @click.option("--commands", is_flag=True, help="Time whole commands too; takes about a minute.")
 def bench(rays: int, commands: bool) -> None:
     """Time the oracle beside other ways to answer the same rays against a capped cylinder.

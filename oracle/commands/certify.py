@@ -26,6 +26,8 @@ LEVEL_NAMES = ("sound", "stable", "faithful", "exact")
 TIER_NAMES = ("lattice", "generic", "stiff", "range")
 
 
+SECONDS = click.FloatRange(min=0.01, max=86400)
+
 EPILOG = """\b
 The protocol, -> to the command and <- from it:
   -> {"hello": 1}
@@ -78,9 +80,19 @@ not be run or nothing was tested.
     show_default=True,
     help="Where the certificate goes.",
 )
-@click.option("--hello-timeout", default=10.0, show_default=True, help="Seconds to the hello.")
-@click.option("--case-timeout", default=5.0, show_default=True, help="Seconds to an answer.")
-@click.option("--line-limit", default=1 << 20, show_default=True, help="Bytes in a line.")
+@click.option(
+    "--hello-timeout", type=SECONDS, default=10.0, show_default=True, help="Seconds to the hello."
+)
+@click.option(
+    "--case-timeout", type=SECONDS, default=5.0, show_default=True, help="Seconds to an answer."
+)
+@click.option(
+    "--line-limit",
+    type=click.IntRange(min=256),
+    default=1 << 20,
+    show_default=True,
+    help="Bytes in a line.",
+)
 def certify(target: tuple[str, ...], **options: Any) -> None:
     """Grade TARGET on the golden cases, print the verdict, write the certificate.
 
@@ -95,6 +107,7 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
         convention(options["convention"])
     except BadLine as error:
         raise click.BadParameter(str(error), param_hint="--convention") from None
+    _check_writable(Path(options["out"]))
     selection = Selection(*(options[name] for name in ("solids", "tiers", "families", "ids")))
     limits = Limits(options["hello_timeout"], options["case_timeout"], options["line_limit"])
     raise SystemExit(_certify(target, options, selection, limits))
@@ -104,7 +117,7 @@ def _certify(
     target: tuple[str, ...], options: dict[str, Any], selection: Any, limits: Limits
 ) -> int:
     from oracle.certificate import Asked, certificate
-    from oracle.certify import verdict
+    from oracle.certify import NOTHING, verdict
     from oracle.environment import environment
     from oracle.selection import select
 
@@ -118,13 +131,16 @@ def _certify(
         _stop(f"nothing to test: the target declares {', '.join(hello.solids)}")
     notes = _smoke(command, hello, limits)
     run, seconds, interrupted = _ask(command, rows, limits)
-    grades = _grade(rows, run, hello)
+    grades, cut = _grade(rows, run, hello)
+    interrupted = interrupted or cut
     given = ("--", *target) if command[1:] not in BUILT_IN.values() else target
     asked = Asked(options["level"], options["convention"], given, selection.options())
     ran = _ran(run, notes, seconds, interrupted, grades, hello)
     judged = verdict(grades, asked.level, asked.convention)  # type: ignore[arg-type]
     form = certificate(asked, hello, corpus, grades, left, ran, judged, environment())
     _publish(form, options["out"])
+    if judged.reasons == NOTHING.reasons:
+        return 3
     return 0 if form["passed"] else 1
 
 
@@ -208,20 +224,24 @@ def _ask(
     return ran, time.monotonic() - began, interrupted
 
 
-def _grade(rows: Sequence[GoldenRow], run: Run, hello: Hello) -> list[Grade]:
+def _grade(rows: Sequence[GoldenRow], run: Run, hello: Hello) -> tuple[list[Grade], bool]:
+    """Return the grades, and whether the person stopped the judging; what is judged is kept."""
     from oracle.certify import severity
     from oracle.commands.progress import counting
     from oracle.grade import grade
 
-    grades = []
+    grades: list[Grade] = []
     with counting("judging", len(rows)) as advance:
-        for row in rows:
-            if row.id in run.outcomes:
-                graded = grade(row, run.outcomes[row.id], hello)
-                severity(graded)  # measures the errors now, where the progress shows
-                grades.append(graded)
-            advance()
-    return grades
+        try:
+            for row in rows:
+                if row.id in run.outcomes:
+                    graded = grade(row, run.outcomes[row.id], hello)
+                    severity(graded)  # measures the errors now, where the progress shows
+                    grades.append(graded)
+                advance()
+        except KeyboardInterrupt:
+            return grades, True
+    return grades, False
 
 
 def _ran(
@@ -230,7 +250,26 @@ def _ran(
     from oracle.certificate import Ran, contradictions
 
     said = (*notes, *run.notes, *contradictions(hello, grades))
-    return Ran(run.restarts, said, round(seconds, 3), interrupted)
+    return Ran(run.restarts, (*said, *_diagnose(grades)), round(seconds, 3), interrupted)
+
+
+def _diagnose(grades: list[Grade]) -> list[str]:
+    """Return which planted fault the failing answers look like, if they look like just one."""
+    from oracle.diagnosis import diagnose
+
+    return diagnose(grades) if any(grade.faults for grade in grades) else []
+
+
+def _check_writable(out: Path) -> None:
+    """Refuse, before the run, a certificate that could not be written after it."""
+    import tempfile
+
+    try:
+        out.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=out.parent):
+            pass
+    except OSError as error:
+        raise click.BadParameter(f"cannot write {out}: {error}", param_hint="--out") from None
 
 
 def _publish(form: dict[str, Any], out: str) -> None:
@@ -242,4 +281,4 @@ def _publish(form: dict[str, Any], out: str) -> None:
     from oracle.report import report
 
     write_whole(Path(out), (json.dumps(form, indent=1, allow_nan=False) + "\n").encode())
-    report(form, Console(), out)
+    report(form, Console(width=None if sys.stdout.isatty() else 120), out)

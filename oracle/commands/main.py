@@ -18,6 +18,7 @@ VERBS: dict[str, tuple[str, str]] = {
         "oracle.commands.harness:harness",
         "Write a starter client in C, C++, Rust, Go, Java, ...",
     ),
+    "zoo": ("oracle.commands.zoo:zoo", "Try planted wrong tracers: who refuses which, and why."),
     "crosscheck": (
         "oracle.commands.crosscheck:crosscheck",
         "Check the oracle by independent witnesses.",

@@ -21,6 +21,8 @@ Try it:
 def serve(name: str, precision: str, numbers: str) -> None:
     """Answer the line protocol on standard input and output until the input ends."""
     if name == "reference":
+        if (precision, numbers) != ("binary64", "decimal"):
+            raise click.UsageError("the reference speaks binary64 in decimals only")
         import subprocess
         import sys
 

@@ -1,0 +1,135 @@
+"""`raycert zoo`: every planted fault against every family, the kill matrix."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from rich.console import Console
+    from rich.table import Table
+
+    from cases.corpus import Corpus
+    from oracle.zoo.matrix import Line
+
+HELP = """Try planted wrong tracers on the golden rows: which family refuses which fault, and why.
+
+Each fault has a family that was made for it, its home, which has to refuse it in the way that is
+expected. A fault that no row refuses is a missing golden row.
+
+\b
+Examples:
+  raycert zoo
+  raycert zoo --fault no-clip --fault diameter    who refuses these
+  raycert zoo --json matrix.json
+
+Exit status: 0 every fault is refused by its home, 1 one is not, 2 bad usage.
+"""
+WIDE = 100
+"""From this width on there is room for the judge's words."""
+
+
+@click.command(help=HELP)
+@click.option("--fault", "names", multiple=True, metavar="NAME", help="Only this (repeatable).")
+@click.option(
+    "--golden",
+    type=click.Path(exists=True, file_okay=False, path_type=Path),
+    help="Golden files to use instead of the installed ones.",
+)
+@click.option("--json", "out", type=click.Path(dir_okay=False, path_type=Path), metavar="FILE")
+def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None) -> None:
+    """Try planted wrong tracers on the golden rows."""
+    from rich.console import Console
+
+    from cases.corpus import GOLDEN, BadCorpus, read_corpus
+    from oracle.zoo.catalog import BY_NAME
+
+    if unknown := [name for name in names if name not in BY_NAME]:
+        raise click.BadParameter(f"no such fault: {', '.join(unknown)}", param_hint="--fault")
+    try:
+        corpus = read_corpus("binary64", golden or GOLDEN)
+    except BadCorpus as error:
+        raise click.UsageError(str(error)) from None
+    lines = _lines(corpus, names or tuple(BY_NAME))
+    if out:
+        _write(corpus, lines, out)
+    console = Console()
+    console.print(_table(lines, console.width))
+    if names:
+        _families(lines, console)
+    raise SystemExit(_summary(corpus, lines, console))
+
+
+def _lines(corpus: Corpus, names: Sequence[str]) -> list[Line]:
+    from oracle.commands.progress import counting
+    from oracle.zoo.catalog import BY_NAME
+    from oracle.zoo.matrix import Bench, line
+
+    bench, lines = Bench(corpus.rows, corpus.format), []
+    with counting("trying", len(names)) as advance:
+        for name in names:
+            lines.append(line(bench, BY_NAME[name]))
+            advance()
+    return lines
+
+
+def _write(corpus: Corpus, lines: Sequence[Line], out: Path) -> None:
+    import json
+
+    from cases.corpus import write_whole
+    from oracle.zoo.matrix import form
+
+    write_whole(out, (json.dumps(form(corpus, lines), indent=1) + "\n").encode())
+
+
+def _table(lines: Sequence[Line], width: int) -> Table:
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=None, pad_edge=False, padding=(0, 1))
+    for name in ("fault", "made for it", "refuses", "how", "all"):
+        table.add_column(name, no_wrap=True, justify="right" if name == "all" else "left")
+    if width >= WIDE:
+        table.add_column("in the judge's words", no_wrap=True, overflow="ellipsis")
+    for line in lines:
+        home, first = line.at_home, line.first
+        cells: list[Text | str] = [
+            Text(line.fault.name, "red" if line.trouble else ""),
+            line.fault.home,
+            f"{len(home)} {home[0].level}" if home else "none",
+            line.kind or "-",
+            str(len(line.families)),
+        ]
+        if width >= WIDE:
+            cells.append(Text(first.reason if first else "", "dim"))
+        table.add_row(*cells)
+    return table
+
+
+def _families(lines: Sequence[Line], console: Console) -> None:
+    """Print, for each fault, who refuses it."""
+    for line in lines:
+        console.print(f"\n[bold]{line.fault.name}[/bold]: a tracer that {line.fault.does}")
+        console.print(f"from: {line.fault.origin}", highlight=False)
+        found = sorted(line.families.items(), key=lambda item: -item[1].total())
+        for family, levels in found:
+            counts = ", ".join(f"{n} {level}" for level, n in levels.items())
+            console.print(f"  {family}: {counts}", highlight=False)
+
+
+def _summary(corpus: Corpus, lines: Sequence[Line], console: Console) -> int:
+    trouble = [line for line in lines if line.trouble]
+    rows = f"{len(corpus.rows)} rows of corpus {corpus.version}"
+    console.print(f"\n{len(lines)} faults, {rows}: ", end="", highlight=False)
+    if not trouble:
+        console.print("each refused by the family made for it", style="bold green")
+        return 0
+    console.print(f"{len(trouble)} NOT AS THEY SHOULD BE", style="bold red")
+    for line in trouble:
+        how: dict[str, Any] = {"style": "red", "highlight": False}
+        console.print(f"  {line.fault.name}, that {line.fault.does}: {line.trouble}", **how)
+    return 1
