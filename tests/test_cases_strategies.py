@@ -96,25 +96,28 @@ def shares(scenes: st.SearchStrategy[Scene], count: int) -> dict[str, float]:
 
 
 LEAST = {
-    "not empty": 40,
-    "several pairs": 1,
-    "a single point": 4,
-    "tangent": 2.5,
-    "rim": 2,
-    "start on a face": 6,
-    "ends of two leaves coincide": 10,
-    "tree": 50,
-    "two leaves": 45,
-    "radius 0": 5,
-    "no direction": 0.2,
-    "lattice": 2,
-    "small whole numbers": 30,
-    "all bits": 6,
+    "not empty": 25,
+    "several pairs": 0.3,
+    "a single point": 2,
+    "tangent": 0.8,
+    "rim": 0.5,
+    "start on a face": 2,
+    "ends of two leaves coincide": 5,
+    "tree": 30,
+    "two leaves": 25,
+    "radius 0": 2,
+    "no direction": 0.1,
+    "lattice": 0.6,
+    "small whole numbers": 15,
+    "all bits": 3,
 }
-"""Percent of all scenes, about half or less of what 3000 of them show, in this order:
+"""Percent of all scenes, far less than what 3000 of them show, in this order:
 
 binary64: 53, 2.5, 11, 5.9, 3.4, 12, 22, 71, 68, 13, 3.1, 6.9, 50, 23
 binary32: 56, 3.4, 10, 5.3, 4.8, 12, 21, 73, 71, 10, 3.4, 8.1, 54, 19
+
+Draws cluster, and Hypothesis also draws constants that it finds in the modules at hand, so shares
+vary from one environment to the next by more than their number would let expect.
 """
 
 

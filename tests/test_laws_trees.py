@@ -30,7 +30,7 @@ from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 
 import pytest
-from hypothesis import HealthCheck, Phase, assume, find, given, settings
+from hypothesis import HealthCheck, Phase, assume, given, settings
 from hypothesis import strategies as st
 
 from cases.formats import BINARY32
@@ -273,24 +273,6 @@ def test_a_point_taken_away_is_closed_again() -> None:
     assert ALONG_X(less(a, less(a, POINT))) == ()
     assert ALONG_X(all_of(a, POINT)) == TWO
     assert ALONG_X(any_of(less(a, a), all_of(a, POINT))) == TWO
-
-
-@pytest.mark.parametrize(
-    "naive",
-    [
-        lambda a, b, c: (less(a, any_of(b, c)), all_of(less(a, b), less(a, c))),
-        lambda a, b, c: (less(a, less(a, b)), all_of(a, b)),
-        lambda a, b, c: (less(a, less(b, c)), any_of(less(a, b), all_of(a, c))),
-    ],
-)
-def test_the_strategies_find_the_points(naive: Callable[..., tuple[Solid, Solid]]) -> None:
-    def fails(group: Group) -> bool:
-        ask = Ask(group[1])
-        one, two = map(ask, naive(*group[0]))
-        return one != two
-
-    once = settings(STABLE, max_examples=5000, phases=[Phase.generate])
-    find(ensembles(3, 3), fails, settings=once)
 
 
 # Laws of motion: what is done to a scene, and what becomes of its list

@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
+from oracle.commands.output import check_writable
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -107,7 +109,7 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
         convention(options["convention"])
     except BadLine as error:
         raise click.BadParameter(str(error), param_hint="--convention") from None
-    _check_writable(Path(options["out"]))
+    check_writable(Path(options["out"]).parent, "--out")
     selection = Selection(*(options[name] for name in ("solids", "tiers", "families", "ids")))
     limits = Limits(options["hello_timeout"], options["case_timeout"], options["line_limit"])
     raise SystemExit(_certify(target, options, selection, limits))
@@ -258,18 +260,6 @@ def _diagnose(grades: list[Grade]) -> list[str]:
     from oracle.diagnosis import diagnose
 
     return diagnose(grades) if any(grade.faults for grade in grades) else []
-
-
-def _check_writable(out: Path) -> None:
-    """Refuse, before the run, a certificate that could not be written after it."""
-    import tempfile
-
-    try:
-        out.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=out.parent):
-            pass
-    except OSError as error:
-        raise click.BadParameter(f"cannot write {out}: {error}", param_hint="--out") from None
 
 
 def _publish(form: dict[str, Any], out: str) -> None:

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import click
 
+from oracle.commands.output import check_writable
+
 FOLDER = click.option(
     "--golden",
     "folder",
@@ -39,6 +41,7 @@ def write(folder: Path | None, release: bool) -> None:
     from oracle.golden import write as write_files
 
     target = _folder(folder)
+    check_writable(target, "--golden")
     try:
         with _progress("computing") as progress:
             files = write_files(target, FAMILIES, progress, RELEASE if release else USUAL)
@@ -56,6 +59,8 @@ def check(folder: Path | None) -> None:
     from oracle.golden import compare
 
     target = _folder(folder)
+    if not target.is_dir():
+        raise click.BadParameter(f"no such directory: {target}", param_hint="--golden")
     with _progress("computing") as progress:
         drifts = compare(target, FAMILIES, progress)
     for drift in drifts[:20]:
