@@ -29,6 +29,8 @@ Examples:
 
 Exit status: 0 every fault is refused by its home, 1 one is not, 2 bad usage.
 """
+OTHERS = 78
+"""What the columns before the last take, at most."""
 WIDE = 100
 """From this width on there is room for the judge's words."""
 
@@ -94,7 +96,7 @@ def _table(lines: Sequence[Line], width: int) -> Table:
     for name in ("fault", "made for it", "refuses", "how", "all"):
         table.add_column(name, no_wrap=True, justify="right" if name == "all" else "left")
     if width >= WIDE:
-        table.add_column("in the judge's words", no_wrap=True, overflow="ellipsis")
+        table.add_column("in the judge's words", no_wrap=True)
     for line in lines:
         home, first = line.at_home, line.first
         cells: list[Text | str] = [
@@ -105,7 +107,9 @@ def _table(lines: Sequence[Line], width: int) -> Table:
             str(len(line.families)),
         ]
         if width >= WIDE:
-            cells.append(Text(first.reason if first else "", "dim"))
+            words = Text(first.reason if first else "", "dim")
+            words.truncate(width - OTHERS, overflow="ellipsis")
+            cells.append(words)
         table.add_row(*cells)
     return table
 
