@@ -14,9 +14,10 @@ from math import inf
 from cases.accept import Numbers
 from cases.protocol import Hello, Reply, convention
 from cases.row import GoldenRow
+from oracle.answer import Answer, Listed, answer
 from oracle.client.process import Failure
 from oracle.decisive import decisive
-from oracle.judge import LEVELS, MEASURES, Judge, Level
+from oracle.judge import LEVELS, MEASURES, Enclosures, Judge, Level
 
 
 @dataclass(frozen=True)
@@ -24,32 +25,37 @@ class Grade:
     """What came of one row. `faults` names, for each level it fails, the reason.
 
     `outside` does so for the levels that the row does not decide; it is told, and not counted.
-    `answer` is None where there was none. The errors are measured when they are asked for:
+    `said` is None where there was no answer. The errors are measured when they are asked for:
     `strict` and `squared` are the backward errors k, `ulps` the forward error; infinite where the
-    answer is no list or has another number of pairs.
+    answer is none, or has another number of pairs.
     """
 
     row: GoldenRow
-    answer: Numbers | None
+    said: Answer | None
     faults: Mapping[str, str]
     judge: Judge
     decides: tuple[str, ...] = ()
     outside: Mapping[str, str] = field(default_factory=dict)
 
+    @property
+    def answer(self) -> Numbers | None:
+        """Return the interval list that was answered; None if there is none."""
+        return self.said.pairs if isinstance(self.said, Listed) else None
+
     @cached_property
     def strict(self) -> float:
         """Return the strict backward error k."""
-        return inf if self.answer is None else self.judge.backward_error(self.answer, "strict")
+        return inf if self.said is None else self.said.backward_error(self.judge, "strict")
 
     @cached_property
     def squared(self) -> float:
         """Return the squared backward error k."""
-        return inf if self.answer is None else self.judge.backward_error(self.answer, "squared")
+        return inf if self.said is None else self.said.backward_error(self.judge, "squared")
 
     @cached_property
     def ulps(self) -> float:
         """Return the forward error in ulps."""
-        return inf if self.answer is None else self.judge.forward_error(self.answer)
+        return inf if self.said is None else self.said.forward_error(self.judge)
 
     def fault(self, level: Level) -> str | None:
         """Return why the row fails a level, or None. A row not decisive can only be malformed."""
@@ -63,9 +69,9 @@ class Grade:
     def keeps_touch(self) -> bool | None:
         """Tell whether a touch was kept as a pair; None where the row has none to grade."""
         touched = any(span.touch for span in self.row.intervals)
-        if self.row.tier != "lattice" or not touched or self.answer is None:
+        if self.row.tier != "lattice" or not touched or self.said is None:
             return None
-        return bool(self.answer)
+        return self.said.keeps_touch(self.row.expected)
 
 
 def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
@@ -75,13 +81,13 @@ def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
     if failure is not None:
         return Grade(row, None, dict.fromkeys(LEVELS, failure), judge, row.decisive)
     assert isinstance(outcome, Reply)
-    answer = tuple((a + 0.0, b + 0.0) for a, b in outcome.intervals or ())
-    malformed = judge.malformed(answer)
+    said = answer(outcome, hello)
+    malformed = said.malformed(judge)
     if malformed is not None:
-        return Grade(row, answer, dict.fromkeys(LEVELS, malformed), judge, row.decisive)
+        return Grade(row, said, dict.fromkeys(LEVELS, malformed), judge, row.decisive)
     decides = deciding(row, judge)
-    faults, outside = _faults(row, answer, judge, hello, decides)
-    return Grade(row, answer, faults, judge, decides, outside)
+    faults, outside = _faults(row, said, judge, hello, decides)
+    return Grade(row, said, faults, judge, decides, outside)
 
 
 def deciding(row: GoldenRow, judge: Judge) -> tuple[str, ...]:
@@ -104,13 +110,13 @@ def _failure(outcome: Reply | Failure) -> str | None:
 
 
 def _faults(
-    row: GoldenRow, answer: Numbers, judge: Judge, hello: Hello, decides: Collection[str]
+    row: GoldenRow, said: Answer, judge: Judge, hello: Hello, decides: Collection[str]
 ) -> tuple[dict[str, str], dict[str, str]]:
     """Return the reasons why the answer fails levels: those the row decides, and the others."""
     faults: dict[str, str] = {}
     outside: dict[str, str] = {}
     for level in LEVELS:
-        fault = _level_fault(level, row, answer, judge, hello)
+        fault = _level_fault(level, row, said, judge, hello)
         if level not in decides:
             outside |= {level: fault} if fault else {}
         elif fault or faults:
@@ -119,30 +125,25 @@ def _faults(
 
 
 def _level_fault(
-    level: Level, row: GoldenRow, answer: Numbers, judge: Judge, hello: Hello
+    level: Level, row: GoldenRow, said: Answer, judge: Judge, hello: Hello
 ) -> str | None:
     match level:
         case "sound" | "stable":
-            accept = judge.accept(level) if hello.tolerance else row.accept[level]
-            return accept.fault(answer)
+            return said.fault(judge.accept(level) if hello.tolerance else row.accept[level])
         case "faithful":
-            wanted = kept(row, hello)
-            if len(answer) != len(wanted):
-                return f"{len(answer)} pairs, {len(wanted)} expected"
-            adjacent = wanted != row.expected or judge.faithful(answer)
-            return None if adjacent else "an endpoint is not one of the two numbers around it"
-    wanted = kept(row, hello)
-    return None if answer == wanted else f"is not the expected list {_shown(wanted)}"
+            return said.is_faithful(*kept(row, judge, hello))
+    return said.is_expected(kept(row, judge, hello)[0])
 
 
-def kept(row: GoldenRow, hello: Hello) -> Numbers:
-    """Return the expected list without the touches that the declared convention drops."""
-    keeps = convention(hello.convention)
+def kept(row: GoldenRow, judge: Judge, hello: Hello) -> tuple[Numbers, Enclosures]:
+    """Return the expected list, and the numbers around its ends.
+
+    The touches that the declared convention drops are left out.
+    """
     if len(row.expected) != len(row.intervals):
-        return row.expected
-    pairs = zip(row.expected, row.intervals, strict=True)
-    return tuple(pair for pair, span in pairs if span.touch is None or keeps[span.touch])
-
-
-def _shown(pairs: Numbers) -> str:
-    return str([list(pair) for pair in pairs])
+        return row.expected, judge.enclosures
+    keeps = convention(hello.convention)
+    spans = zip(row.expected, row.intervals, strict=True)
+    left = [(pair, span) for pair, span in spans if span.touch is None or keeps[span.touch]]
+    enclosures = (tuple((end.down, end.up) for end in (s.enter, s.leave)) for _, s in left)
+    return tuple(pair for pair, _ in left), tuple(enclosures)  # type: ignore[arg-type]

@@ -7,7 +7,7 @@ An answer is a list of pairs of numbers of a format. It is compared as a set of 
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from math import frexp, inf, isinf
@@ -27,6 +27,8 @@ Level = Literal["sound", "stable", "faithful", "exact"]
 LEVELS: tuple[Level, ...] = ("sound", "stable", "faithful", "exact")
 """From weak to strong; each includes the ones before it."""
 MEASURES: dict[Level, Measure] = {"sound": "squared", "stable": "strict"}
+Enclosures = tuple[tuple[tuple[float, float], tuple[float, float]], ...]
+"""For each pair of a list, the two numbers that enclose each of its ends."""
 LIMIT = 20
 """The step of k = 64, which `sound` and `stable` allow."""
 
@@ -76,6 +78,15 @@ class Judge:
     def expected(self) -> Numbers:
         """Return the exact list, each endpoint rounded to nearest; what touches is merged."""
         return self._expected[1]
+
+    @property
+    def enclosures(self) -> Enclosures:
+        """Return, for each end of the expected list, the two numbers around the exact one."""
+        return tuple((self._around(a), self._around(b)) for a, b in self.merged)
+
+    def _around(self, t: Surd) -> tuple[float, float]:
+        rounded = enclose(t, self.format)
+        return rounded.down, rounded.up
 
     @cached_property
     def scene(self) -> Scene:
@@ -152,8 +163,22 @@ class Judge:
         """
         if malformed(answer, True):
             return inf
+        given = tuple((dyadic(a), dyadic(b)) for a, b in answer)
+        return self.least_k(
+            measure, lambda inner, outer: contains(outer, given) and contains(given, inner)
+        )
+
+    def least_k(self, measure: Measure, right: Callable[[Intervals, Intervals], bool]) -> float:
+        """Return the least k for whose inner and outer list `right` holds; infinite without one.
+
+        `right` has to be monotone: true for k, it is true for all larger ones.
+        """
+
+        def holds(step: int) -> bool:
+            return right(self.moved(step, measure, -1), self.moved(step, measure, 1))
+
         steps = range(LAST_STEP + 1)
-        i = bisect_left(steps, True, key=lambda i: self.accepts(answer, i, measure))
+        i = bisect_left(steps, True, key=holds)
         return float(Step.at(i)) if i < len(steps) else inf
 
     def forward_error(self, answer: Pairs) -> float:
@@ -164,14 +189,15 @@ class Judge:
         """
         if len(answer) != len(self.merged) or malformed(answer, True):
             return inf
-        return max((self._ulps(x, t) for x, t in self._ends(answer)), default=0.0)
+        return max((self.ulps(x, t) for x, t in self._ends(answer)), default=0.0)
 
     def _ends(self, answer: Pairs) -> Iterator[tuple[float, Surd]]:
         """Yield each endpoint of an answer with the exact one; the lists are equally long."""
         for given, true in zip(answer, self.merged, strict=True):
             yield from zip(given, true, strict=True)
 
-    def _ulps(self, x: float, t: Surd) -> float:
+    def ulps(self, x: float, t: Surd) -> float:
+        """Return the distance of a number from an exact t, in ulps of the exact one."""
         if isinf(x) or not saturated(t, self.format).finite:
             return 0.0 if x == nearest(t, self.format) else inf
         below, ulp = enclose(t, self.format).down, self.format.least
@@ -183,11 +209,7 @@ class Judge:
         """Tell whether every endpoint is one of the two numbers that enclose the exact one."""
         if len(answer) != len(self.merged):
             return False
-        return all(self._adjacent(x, t) for x, t in self._ends(answer))
-
-    def _adjacent(self, x: float, t: Surd) -> bool:
-        rounded = enclose(t, self.format)
-        return x in (rounded.down, rounded.up)
+        return all(x in self._around(t) for x, t in self._ends(answer))
 
     def holds(self, level: Level, answer: Pairs) -> bool:
         """Tell whether an answer is what a level asks for."""

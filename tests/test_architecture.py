@@ -22,8 +22,27 @@ MAY_IMPORT = {
     "oracle": {"cases", "oracle"},
     "reference": {"cases", "reference"},
 }
-HEAVY = {"numpy", "sympy", "trimesh", "manifold3d", "scipy", "matplotlib", "mpmath", "flint"}
-WITNESSES = "oracle/witness/"
+HEAVY = {
+    "numpy",
+    "numba",
+    "sympy",
+    "trimesh",
+    "manifold3d",
+    "scipy",
+    "matplotlib",
+    "mpmath",
+    "flint",
+    "PIL",
+    "jinja2",
+    "junitparser",
+    "pytest",
+    "dask",
+    "distributed",
+}
+MAY_LOAD = ("oracle/witness/", "oracle/batch/", "oracle/plots/", "reference/batch/")
+"""The packages that exist to use a heavy one: their modules may load it at their top."""
+NAMED = ("oracle/pytest_plugin.py",)
+"""Modules that nobody but the program that they plug into imports."""
 LONGEST_MODULE, LONGEST_FUNCTION = 300, 40
 
 
@@ -84,8 +103,8 @@ def at_top(tree: ast.AST) -> Iterator[ast.AST]:
 
 
 def heavy_on_import(source: Source) -> list[str]:
-    """Return the heavy packages that importing a module loads; a witness is free to."""
-    if source.path.startswith(WITNESSES):
+    """Return the heavy packages that importing a module loads, where it is not made for that."""
+    if source.path.startswith(MAY_LOAD) or source.path in NAMED:
         return []
     return [
         f"{source.path}:{node.lineno}: loads {name}"  # type: ignore[attr-defined]
@@ -97,7 +116,7 @@ def heavy_on_import(source: Source) -> list[str]:
 
 def heavy_in_the_plain_packages(source: Source) -> list[str]:
     """Return heavy packages that `cases` or `reference` load anywhere, lazily or not."""
-    if source.package == "oracle":
+    if source.package == "oracle" or source.path.startswith(MAY_LOAD):
         return []
     names = (name for node in ast.walk(source.tree) for name in imported(node))
     return [f"{source.path}: loads {name}" for name in names if name in HEAVY]
@@ -149,12 +168,14 @@ def loaded_by(modules: list[str]) -> set[str]:
     return set(subprocess.check_output(run, text=True, env=env).split()) & HEAVY
 
 
-def test_nothing_but_a_witness_loads_a_heavy_package() -> None:
+def test_nothing_but_what_is_made_for_it_loads_a_heavy_package() -> None:
     """Over all imports of imports: what the rule on single modules cannot see."""
     modules = [
         source.path.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
         for source in SOURCES
-        if not source.path.startswith(WITNESSES) and not source.path.endswith("__main__.py")
+        if not source.path.startswith(MAY_LOAD)
+        and source.path not in NAMED
+        and not source.path.endswith("__main__.py")
     ]
     assert loaded_by(modules) == set()
     assert loaded_by(["oracle.witness.enclosure"]) == {"mpmath"}

@@ -16,6 +16,7 @@ from cases.accept import Numbers
 from cases.corpus import read_corpus
 from cases.formats import BINARY64
 from cases.row import GoldenRow
+from oracle.answer import Listed
 from oracle.diagnosis import LEAST, SHARE, close, diagnose
 from oracle.grade import Grade
 from oracle.judge import LEVELS, Judge
@@ -71,7 +72,9 @@ def graded(intersect: Intersect, independently: bool = True) -> list[Grade]:
             words = f"crash: {refusal.reason}" if refusal.kind == "crash" else refusal.reason
             faults = dict.fromkeys(LEVELS[refusal.level == "stable" :], words)
         judge = bench().judges.get(row.id) or Judge(row.solid, row.ray, BINARY64, row.tier)
-        grades.append(Grade(row, outcome.answer, faults, judge))
+        grades.append(
+            Grade(row, None if outcome.answer is None else Listed(outcome.answer), faults, judge)
+        )
     return grades
 
 
