@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from cases.formats import BINARY64, FORMATS, SPELLINGS, Format, Spelling, parse, spell
-from cases.forms import write_ray, write_solid
+from cases.lines import question
 from cases.model import SOLIDS, Ray, Solid
 
 VERSION = 1
@@ -74,7 +74,9 @@ def encode(message: dict[str, Any]) -> bytes:
 def decode(line: bytes) -> dict[str, Any]:
     """Return the JSON object on a line. Raises `BadLine` for anything else."""
     try:
-        message = json.loads(line)
+        # What begins so is UTF-8; json asks the bytes of others for their encoding, at some cost.
+        plain = line[:2] == b'{"'
+        message = json.loads(line.decode("utf-8", "surrogatepass") if plain else line)
     except (ValueError, RecursionError) as error:
         raise BadLine(f"is not JSON ({error}): {_shown(line)}") from None
     if not isinstance(message, dict):
@@ -89,18 +91,23 @@ def _shown(line: bytes) -> str:
 
 def ask(id: str, solid: Solid, ray: Ray, spelling: Spelling, fmt: Format) -> bytes:
     """Return the line that asks one case."""
-    form = {
-        "id": id,
-        "solid": write_solid(solid, spelling, fmt),
-        "ray": write_ray(ray, spelling, fmt),
-    }
-    return encode(form)
+    return question(id, solid, ray, spelling, fmt)
 
 
 def reply_intervals(id: str, pairs: Iterable[tuple[float, float]], hello: Hello) -> bytes:
     """Return the line that answers a case with an interval list."""
     spelled = [[spell(x, hello.numbers, hello.format) for x in pair] for pair in pairs]
     return encode({"id": id, "intervals": spelled})
+
+
+def reply_first(id: str, t: float | None, hello: Hello) -> bytes:
+    """Return the line that answers a case with the first hit, or with a miss (None)."""
+    return encode({"id": id, "first": None if t is None else spell(t, hello.numbers, hello.format)})
+
+
+def reply_hit(id: str, hit: bool) -> bytes:
+    """Return the line that answers a case with whether there is a hit."""
+    return encode({"id": id, "hit": hit})
 
 
 def write_hello(hello: Hello) -> bytes:
@@ -118,7 +125,7 @@ def read_hello(line: bytes) -> Hello:
 
 
 def _hello(message: dict[str, Any], line: bytes) -> Hello:
-    if message.get("hello") != VERSION:
+    if message.get("hello") != VERSION or message["hello"] is True:
         raise BadLine(
             f'hello is not {VERSION}: {_shown(line)}; expected {{"hello": 1, "name": ...}}'
         )
@@ -221,8 +228,10 @@ def _reason(value: object, line: bytes) -> str:
 
 
 def _number(value: object, hello: Hello, line: bytes) -> float:
+    fmt = hello.format
     try:
-        return hello.format.nearest(parse(value, hello.numbers, hello.format))
+        read = parse(value, hello.numbers, fmt)
+        return read if fmt is BINARY64 else fmt.nearest(read)
     except (ValueError, OverflowError, RecursionError) as error:
         raise BadLine(f"has a bad number ({error}): {_shown(line)}") from None
 
@@ -231,7 +240,13 @@ def _pairs(message: dict[str, Any], hello: Hello, line: bytes) -> Pairs:
     pairs = message.get("intervals")
     if not isinstance(pairs, list):
         raise BadLine(f"has no intervals (a list of pairs): {_shown(line)}")
+    plain = hello.numbers == "decimal" and hello.precision == "binary64"
+    read = []
     for pair in pairs:
         if not isinstance(pair, list) or len(pair) != 2:
             raise BadLine(f"has an interval that is not a pair of numbers: {_shown(line)}")
-    return tuple((_number(a, hello, line), _number(b, hello, line)) for a, b in pairs)
+        a, b = pair
+        if not (plain and type(a) is type(b) is float):  # those are what they are
+            a, b = _number(a, hello, line), _number(b, hello, line)
+        read.append((a, b))
+    return tuple(read)

@@ -1,17 +1,30 @@
 """The implementation's side of the line protocol: read cases, answer each, in order, flushed.
 
-What an implementation brings is one function, `intersect(solid, ray) -> pairs of floats`.
+What an implementation brings is one function, `intersect(solid, ray) -> pairs of floats`. Where
+its hello promises the first hit or a truth value, that is what the list says of it.
 """
 
 from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable
+from math import isnan
 from typing import BinaryIO
 
 from cases.forms import read_ray, read_solid
+from cases.hits import first, hit
 from cases.model import Ray, Refused, Solid
-from cases.protocol import BadLine, Hello, decode, encode, reply_intervals, write_hello
+from cases.protocol import (
+    BadLine,
+    Hello,
+    Pairs,
+    decode,
+    encode,
+    reply_first,
+    reply_hit,
+    reply_intervals,
+    write_hello,
+)
 
 Intersect = Callable[[Solid, Ray], Iterable[tuple[float, float]]]
 
@@ -42,6 +55,17 @@ def answer(line: bytes, intersect: Intersect, hello: Hello) -> bytes:
     try:
         solid = read_solid(message.get("solid"), "solid", hello.numbers, hello.format)
         ray = read_ray(message.get("ray"), "ray", hello.numbers, hello.format)
-        return reply_intervals(id, intersect(solid, ray), hello)
+        return _reply(id, tuple(intersect(solid, ray)), hello)
     except Refused as refusal:
         return encode({"id": id, "error": str(refusal)})
+
+
+def _reply(id: str, pairs: Pairs, hello: Hello) -> bytes:
+    """Return the line that answers in the form that the hello promises."""
+    if any(isnan(enter) or isnan(leave) for enter, leave in pairs):
+        return encode({"id": id, "error": f"the answer holds NaN: {pairs!r:.200}"})
+    if hello.answers == "first":
+        return reply_first(id, first(pairs, hello.from_inside), hello)
+    if hello.answers == "any":
+        return reply_hit(id, hit(pairs))
+    return reply_intervals(id, pairs, hello)

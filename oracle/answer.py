@@ -17,8 +17,9 @@ from math import inf, isinf, isnan
 from typing import Protocol
 
 from cases.accept import Accept, Numbers
+from cases.hits import first_end
 from cases.protocol import FromInside, Hello, Reply
-from oracle.hits import first_end, first_fault
+from oracle.hits import first_fault
 from oracle.judge import Enclosures, Judge
 from oracle.moved import Measure
 from oracle.surd import ZERO, dyadic

@@ -1,4 +1,4 @@
-"""The first hit of a list, and whether a t may be it, between an inner list I and an outer list O.
+"""Whether a t may be the first hit, between an inner list I and an outer list O.
 
 What is first for a start inside is the client's to say: `from_inside` is `zero` (t = 0), `exit`
 (the next surface) or `miss`. The numbers may be floats or exact: they are only compared.
@@ -7,29 +7,12 @@ What is first for a start inside is the client's to say: `from_inside` is `zero`
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import isinf
 from typing import Any, TypeVar
 
 from cases.protocol import FromInside
 
 T = TypeVar("T", bound=Any)
 """A number of either kind that is compared: a float, or an exact t."""
-
-
-def first_end(pairs: Sequence[tuple[T, T]], from_inside: FromInside) -> tuple[int, int] | None:
-    """Return which end of a list is the first hit: pair and side; None if nothing is hit.
-
-    A list that begins with 0 is a start inside: `zero` answers 0, `miss` nothing, `exit` the leave.
-
-    >>> first_end([(0.0, 2.0)], "exit")
-    (0, 1)
-    """
-    if not pairs:
-        return None
-    enter, leave = pairs[0]
-    if from_inside == "zero" or enter > 0:
-        return 0, 0
-    return (0, 1) if from_inside == "exit" and not isinf(leave) else None
 
 
 def first_fault(

@@ -25,6 +25,8 @@ from cases.protocol import (
     encode,
     read_hello,
     read_reply,
+    reply_first,
+    reply_hit,
     reply_intervals,
     write_hello,
 )
@@ -92,6 +94,7 @@ DEEP = b"[" * 900 + b"]" * 900
         (line(name="x"), "hello is not 1"),
         (line(hello=2, name="x"), "hello is not 1"),
         (line(hello="1", name="x"), "hello is not 1"),
+        (line(hello=True, name="x"), "hello is not 1"),
         (line(hello=1), "hello.name is missing"),
         (line(hello=1, name=""), "hello.name is missing"),
         (line(hello=1, name=7), "hello.name is missing"),
@@ -173,6 +176,15 @@ ENDS = st.floats(allow_nan=False, width=32).map(lambda x: math.inf if math.isinf
 def test_a_list_survives_its_line(precision: str, numbers: Any, pairs: Any):
     hello = Hello("x", precision=precision, numbers=numbers)
     assert read_reply(reply_intervals("7", pairs, hello), hello) == Reply("7", intervals=pairs)
+
+
+@pytest.mark.parametrize("numbers", SPELLINGS)
+@QUICK
+@given(t=st.none() | st.floats(allow_nan=False, allow_infinity=False), hit=st.booleans())
+def test_a_first_hit_and_a_truth_value_survive_their_lines(numbers: Any, t: Any, hit: bool):
+    hello = Hello("x", answers="first", numbers=numbers)
+    assert read_reply(reply_first("7", t, hello), hello) == Reply("7", first=t)
+    assert read_reply(reply_hit("7", hit), Hello("x", answers="any")) == Reply("7", hit=hit)
 
 
 def test_infinity_is_read_in_three_ways():

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import io
 import json
+import math
 from collections.abc import Iterable, Iterator
 
 import pytest
 
 from cases.formats import FORMATS, SPELLINGS, Spelling
 from cases.model import Cylinder, Ray, Solid
-from cases.protocol import Hello, ask, read_hello, read_reply
+from cases.protocol import FromInside, Hello, Pairs, Reply, ask, read_hello, read_reply
 from cases.serve import answer, serve
 
 CAN = Cylinder((0, 0, 0), (0, 0, 2), 1)
@@ -59,6 +60,42 @@ def test_a_refusal_names_the_field():
     assert (
         read_reply(answer(asked, radius, HELLO), HELLO).error == "solid.radius: is negative: -1.0"
     )
+
+
+@pytest.mark.parametrize("numbers", SPELLINGS)
+@pytest.mark.parametrize("pair", [(math.nan, 1.0), (1.0, math.nan)])
+def test_an_answer_with_nan_is_an_error(numbers: Spelling, pair: tuple[float, float]):
+    hello = Hello("test", numbers=numbers)
+    asked = ask("7", CAN, ACROSS, numbers, hello.format)
+    reply = read_reply(answer(asked, lambda *_: [pair], hello), hello)
+    assert reply.error is not None
+    assert "holds NaN: ((" in reply.error
+
+
+@pytest.mark.parametrize("numbers", SPELLINGS)
+@pytest.mark.parametrize(
+    ("mode", "pairs", "t"),
+    [
+        ("zero", [(2.0, 4.0)], 2.0),
+        ("zero", [(0.0, 4.0)], 0.0),
+        ("exit", [(0.0, 4.0)], 4.0),
+        ("exit", [(0.0, math.inf)], None),
+        ("miss", [(0.0, 4.0), (5.0, 6.0)], None),
+        ("miss", [], None),
+    ],
+)
+def test_a_first_hit_is_served(numbers: Spelling, mode: FromInside, pairs: Pairs, t: float | None):
+    hello = Hello("test", answers="first", from_inside=mode, numbers=numbers)
+    asked = ask("7", CAN, ACROSS, numbers, hello.format)
+    assert read_reply(answer(asked, lambda *_: iter(pairs), hello), hello) == Reply("7", first=t)
+
+
+@pytest.mark.parametrize("pairs", [[], [(1.0, 1.0)]])
+def test_whether_there_is_a_hit_is_served(pairs: Pairs):
+    hello = Hello("test", answers="any")
+    asked = ask("7", CAN, ACROSS, "decimal", hello.format)
+    reply = read_reply(answer(asked, lambda *_: pairs, hello), hello)
+    assert reply == Reply("7", hit=bool(pairs))
 
 
 class Watched(io.BytesIO):

@@ -7,11 +7,11 @@ from functools import cache
 
 from cases.corpus import read_corpus
 from cases.formats import BINARY32
+from cases.hits import first_end
 from cases.protocol import FROM_INSIDE, FromInside, Hello, Reply
 from cases.row import GoldenRow
 from oracle.contradictions import contradictions
 from oracle.grade import Grade, grade
-from oracle.hits import first_end
 
 Say = Callable[[GoldenRow], Reply]
 

@@ -11,20 +11,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from cases.corpus import read_corpus
+from cases.hits import first
 from cases.protocol import FROM_INSIDE, FromInside, Hello, Reply
 from cases.row import GoldenRow
 from oracle.answer import First, YesNo
 from oracle.certify import Touches, verdict
 from oracle.grade import Grade, grade
-from oracle.hits import first_end, first_fault
+from oracle.hits import first_fault
 from oracle.judge import LEVELS
 
 Lists = tuple[tuple[float, float], ...]
-
-
-def first(pairs: Lists, mode: FromInside) -> float | None:
-    end = first_end(pairs, mode)
-    return None if end is None else pairs[end[0]][end[1]]
 
 
 @st.composite
