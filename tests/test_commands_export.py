@@ -2,6 +2,7 @@
 
 import struct
 from collections.abc import Iterator
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +12,12 @@ from click.testing import CliRunner, Result
 from cases.accept import Accept
 from cases.case import Case, Family
 from cases.corpus import read_corpus
-from cases.formats import Format
+from cases.formats import FORMATS, Format
 from cases.model import Cylinder, Difference, HalfSpace, InfiniteCylinder, Ray, Slab, Sphere, Union
-from oracle.commands.export import COLUMNS, export
+from oracle.commands.export import COLUMNS, export, merged_ends
 from oracle.golden import write
+from oracle.judge import Judge
+from oracle.rounding import enclose
 
 UNIT = Cylinder((0, 0, 0), (0, 0, 2), 1)
 TREE = Difference((Sphere((0, 0, 0), 2), Union((UNIT, HalfSpace((0, 0, 0), (1, 0, 0))))))
@@ -82,7 +85,8 @@ class Reader:
     def row(self) -> dict[str, Any]:
         found: dict[str, Any] = {"id": self.word(), "tier": self.word(), "solid": self.solid()}
         found["ray"] = self.numbers(6)
-        found["expected"] = self.pairs()
+        for name in ("expected", "down", "up"):
+            found[name] = self.pairs()
         found["decisive"] = self.words()
         for level in ("sound", "stable"):
             inner, outer = self.pairs(), self.pairs()
@@ -121,9 +125,25 @@ def test_the_file_says_what_the_rows_say(golden: Path, precision: str, pack: str
         assert read["solid"] == plain(row.solid)
         assert read["ray"] == row.ray.origin + row.ray.direction
         assert read["expected"] == row.expected
+        judge = Judge(row.solid, row.ray, FORMATS[precision])
+        around = [tuple(enclose(t, judge.format) for t in pair) for pair in judge.merged]
+        assert read["down"] == tuple((enter.down, leave.down) for enter, leave in around)
+        assert read["up"] == tuple((enter.up, leave.up) for enter, leave in around)
         assert read["decisive"] == row.decisive
         assert {level: read[level] for level in row.accept} == row.accept
         assert read["touches"] == tuple(span.touch or "none" for span in row.intervals)
+
+
+@pytest.mark.parametrize("precision", FORMATS)
+def test_merged_ends_are_those_of_the_expected_list(precision: str) -> None:
+    merged = 0
+    for row in read_corpus(precision).rows:
+        ends = merged_ends(row)
+        assert tuple((enter.nearest, leave.nearest) for enter, leave in ends) == row.expected
+        overflows = any(span.enter.up == inf for span in row.intervals)
+        assert overflows == any(enter.up == inf for enter, _ in ends), row.id
+        merged += len(ends) < len(row.intervals)
+    assert merged
 
 
 def test_columns_are_where_the_header_says(golden: Path) -> None:
@@ -134,6 +154,7 @@ def test_columns_are_where_the_header_says(golden: Path) -> None:
     assert first["type"] == "cylinder"
     assert len(first["solid"].split()) == 7
     assert first["expected"] == "1 4000000000000000 4010000000000000"
+    assert first["down"] == first["up"] == first["expected"]
     assert first["touches"] == "1 none"
     assert first["sound_most"] == "1 1"
 

@@ -1,19 +1,24 @@
-"""One program that speaks the line protocol: its hello, questions to it, answers in order.
+"""What a dialogue with a target is: questions to it, answers in order, whatever it is made of.
 
-Here: which answer belongs to which question. Not here: what follows a failure.
+Two kinds of target open one: a program that speaks the line protocol (piped.py), and code that is
+loaded into a process of ours (inprocess.py). Here: what is owed, and how it ends. Not here: what
+follows a failure (harness.py).
 """
 
 from __future__ import annotations
 
 import secrets
-import shlex
+from abc import ABC, abstractmethod
 from collections import deque
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Protocol
 
 from cases.model import Ray, Solid
-from cases.protocol import VERSION, BadLine, Hello, Reply, ask, encode, read_hello, read_reply
+from cases.protocol import Hello, Reply
 from oracle.client.process import GRACE, Broken, Failure, Process, shown
+
+Outcome = Reply | Failure
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,27 +59,48 @@ def fresh_ids() -> Iterator[str]:
         yield f"q{state:08x}"
 
 
-class Dialogue:
+class Target(Protocol):
+    """What can be certified: a way to start it, any number of times."""
+
+    def open(self, limits: Limits, ids: Iterator[str]) -> Dialogue:
+        """Start it in a process of its own and read its hello. Raises `Unusable`.
+
+        `ids` are those that questions go by, where it is told any.
+        """
+
+
+class Dialogue(ABC):
     """A running implementation that has said hello.
 
     `hello` is what it declared; `unanswered` the questions it owes, in order; `last` the one it
     answered last; `asked` how many it was asked.
     """
 
-    def __init__(self, command: Sequence[str], limits: Limits, ids: Iterator[str]) -> None:
-        """Start the program and read its hello. Raises `Unusable`."""
+    def __init__(self, process: Process, limits: Limits) -> None:
+        """Take over a process that was just started, and read its hello. Raises `Unusable`."""
         self.asked = 0
         self.last: Question | None = None
         self._limits = limits
-        self._ids = ids
         self._owed: deque[tuple[str, Question]] = deque()
-        self._last_id = ""
-        self._process = _start(command, limits)
+        self._held: list[bytes] = []
+        self._process = process
         try:
-            self.hello, self._held = self._greet(command)
+            self.hello = self._greet()
         except BaseException:
             self.kill()
             raise
+
+    @abstractmethod
+    def _greet(self) -> Hello:
+        """Read the hello. Raises `Unusable`."""
+
+    @abstractmethod
+    def _message(self, questions: list[Question]) -> bytes:
+        """Return the bytes that ask questions, having entered them into `_owed`."""
+
+    @abstractmethod
+    def _match(self, line: bytes) -> Iterable[tuple[Question, Outcome]]:
+        """Return the answers on a line with their questions, struck from `_owed`; `Broken`."""
 
     @property
     def unanswered(self) -> list[Question]:
@@ -88,40 +114,37 @@ class Dialogue:
 
     def ask(self, questions: Iterable[Question]) -> None:
         """Send questions, in the spelling and format of the hello. Never blocks."""
-        spelling, fmt, lines = self.hello.numbers, self.hello.format, []
-        for question in questions:
-            id = next(self._ids)
-            self._owed.append((id, question))
-            lines.append(ask(id, question.solid, question.ray, spelling, fmt))
-        self.asked += len(lines)
-        self._process.send(b"".join(lines))
+        asked = list(questions)
+        self.asked += len(asked)
+        self._process.send(self._message(asked))
 
-    def answers(self) -> Iterator[tuple[Question, Reply]]:
+    def answers(self) -> Iterator[tuple[Question, Outcome]]:
         """Yield the answers that have come, waiting for the first; each carries the question's id.
 
-        Raises `Broken`, after the good answers before the failure.
+        A `Failure` among them is an answer of no meaning from a target that goes on. Raises
+        `Broken`, after the good answers before the failure.
         """
         lines, self._held = self._held, []
         for line in lines or self._process.receive(self._limits.case):
-            yield self._match(line)
+            yield from self._match(line)
 
     def stay_quiet(self) -> None:
-        """Raise `Broken` if the program says more, or ends, though it owes nothing."""
+        """Raise `Broken` if the target says more, or ends, though it owes nothing."""
         more = self._unasked() or self._process.listen(GRACE / 10)
         if more == b"":
             raise Broken(Failure("crash", f"{self._process.status()} after its answer"))
         if more:
-            raise Broken(_too_much(more))
+            raise Broken(too_much(more))
 
     def finish(self) -> str:
         """End the input, wait for the end; return what is odd about it, or nothing.
 
-        Raises `Broken` if lines come after the last answer. The program is dead afterwards.
+        Raises `Broken` if lines come after the last answer. The target is dead afterwards.
         """
         try:
             self._process.close()
             if more := self._unasked() or self._process.listen(2 * GRACE):
-                raise Broken(_too_much(more))
+                raise Broken(too_much(more))
             ending = self._process.status()
         finally:
             self.kill()
@@ -130,84 +153,15 @@ class Dialogue:
         return "" if ending == "ended with exit status 0" else f"after its input ended it {ending}"
 
     def kill(self) -> None:
-        """Leave nothing of the program behind."""
+        """Leave nothing of the target behind."""
         self._process.kill()
-
-    def _greet(self, command: Sequence[str]) -> tuple[Hello, list[bytes]]:
-        self._process.send(encode({"hello": VERSION}))
-        name = shlex.join(command)
-        try:
-            first, *more = self._process.receive(self._limits.hello)
-        except Broken as broken:
-            raise Unusable(_no_hello(name, broken.failure)) from None
-        try:
-            return read_hello(first), more
-        except BadLine as error:
-            raise Unusable(_bad_hello(name, str(error), first, self._process.errors())) from None
 
     def _unasked(self) -> bytes:
         """Return what has come beside the answers."""
         return b"\n".join([*self._held, self._process.leftover()])
 
-    def _match(self, line: bytes) -> tuple[Question, Reply]:
-        """Return the oldest question with the answer to it that `line` is."""
-        if not self._owed:
-            raise Broken(_too_much(line))
-        id, question = self._owed[0]
-        try:
-            reply = read_reply(line, self.hello)
-        except BadLine as error:
-            raise Broken(Failure("bad-line", f"the line {error}", shown(line, 1000))) from None
-        if reply.id != id:
-            raise Broken(self._wrong_id(reply.id, id, line))
-        self._owed.popleft()
-        self.last, self._last_id = question, id
-        return question, replace(reply, id=question.id)
 
-    def _wrong_id(self, subject: str, truth: str, line: bytes) -> Failure:
-        detail = f"answered id {subject[:40]!r} where {truth!r} was next"
-        if subject == self._last_id:
-            detail += "; that one was answered just before"
-        elif any(subject == id for id, _ in self._owed):
-            detail += "; that one was asked later: answers have to come in the order of questions"
-        else:
-            detail += "; no such id was asked: ids have to be given back as they are"
-        return Failure("wrong-id", detail, shown(line, 1000))
-
-
-def _start(command: Sequence[str], limits: Limits) -> Process:
-    try:
-        if not command:
-            raise ValueError("there is no command")
-        return Process(command, limits.line)
-    except (OSError, ValueError) as error:
-        name = shlex.join(command)
-        raise Unusable(
-            f"cannot start {name!r}: {error}. Give the program and its arguments as you would "
-            "type them in a terminal, and see that the file exists and is executable."
-        ) from None
-
-
-def _too_much(output: bytes) -> Failure:
+def too_much(output: bytes) -> Failure:
+    """Return the failure of a target that says what it was not asked."""
     text = shown(output)
     return Failure("bad-line", f"wrote more than its answers: {text!r}", shown(output, 1000))
-
-
-EXAMPLE = '{"hello": 1, "name": "my tracer"}'
-
-
-def _no_hello(name: str, failure: Failure) -> str:
-    advice = f'It has to answer the line {{"hello": 1}} with a line such as {EXAMPLE}'
-    if failure.kind == "hang":
-        advice += ", and to flush its standard output after each line"
-    return f"{name!r} gave no hello: {failure.detail}. {advice}."
-
-
-def _bad_hello(name: str, error: str, first: bytes, errors: str) -> str:
-    seen = f"{name!r} gave a bad hello: {error}. Its first line was {shown(first)!r}."
-    if errors:
-        seen += f" Standard error: {errors}."
-    return (
-        f"{seen} Its first line has to be one such as {EXAMPLE}; anything else that it prints "
-        "belongs on standard error."
-    )

@@ -3,8 +3,11 @@
 Questions are pipelined. After a crash, a hang, a bad line or a wrong id the process is killed, and
 what it had not answered is asked again one at a time. A failure is a question's own only where the
 question was the first that a fresh process was asked; a failure that does not come again so is
-`unrepeatable`. Here: that replay. Not here: pipes and time (process.py), the protocol
-(dialogue.py), whether an answer is right.
+`unrepeatable`. A value of no meaning that code in a process of ours returns is a failure too, but
+one that harms no other question: nothing is killed or asked again for it.
+
+Here: that replay. Not here: pipes and time (process.py), what is said through them (dialogue.py
+and the two kinds of it), whether an answer is right.
 """
 
 from __future__ import annotations
@@ -14,8 +17,17 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from cases.protocol import Hello, Reply
-from oracle.client.dialogue import Dialogue, Limits, Question, Unusable, fresh_ids
+from cases.protocol import Hello
+from oracle.client.dialogue import (
+    Dialogue,
+    Limits,
+    Outcome,
+    Question,
+    Target,
+    Unusable,
+    fresh_ids,
+)
+from oracle.client.piped import Command
 from oracle.client.process import Broken, Failure
 
 __all__ = [
@@ -33,7 +45,6 @@ __all__ = [
 STARTS = 3
 """A program that gave no hello this many times in a row is not started again."""
 
-Outcome = Reply | Failure
 Progress = Callable[[int], None]
 
 
@@ -59,20 +70,24 @@ class Interrupted(KeyboardInterrupt):
         self.run = run
 
 
-def greet(command: Sequence[str], limits: Limits | None = None) -> Hello:
+def greet(target: Sequence[str] | Target, limits: Limits | None = None) -> Hello:
     """Return what an implementation declares of itself. Raises `Unusable`."""
-    dialogue = Dialogue(command, limits or Limits(), fresh_ids())
+    dialogue = _target(target).open(limits or Limits(), fresh_ids())
     dialogue.kill()
     return dialogue.hello
 
 
+def _target(target: Sequence[str] | Target) -> Target:
+    return Command(tuple(target)) if isinstance(target, Sequence) else target
+
+
 def run(
-    command: Sequence[str],
+    target: Sequence[str] | Target,
     questions: Sequence[Question],
     limits: Limits | None = None,
     on_progress: Progress | None = None,
 ) -> Run:
-    """Ask an implementation all the questions, whose ids are distinct.
+    """Ask an implementation, a command or any target, all the questions, whose ids are distinct.
 
     Every question gets an outcome, within bounded time. No process is left behind. `on_progress`
     is told now and then how many questions have one. Raises `Unusable` if the first start gives no
@@ -80,7 +95,7 @@ def run(
     """
     if len({question.id for question in questions}) < len(questions):
         raise ValueError("two questions have the same id")
-    replay = Replay(command, questions, limits or Limits(), on_progress or (lambda _: None))
+    replay = Replay(_target(target), questions, limits or Limits(), on_progress or (lambda _: None))
     try:
         replay.all()
     except KeyboardInterrupt:
@@ -99,13 +114,13 @@ class Replay:
 
     def __init__(
         self,
-        command: Sequence[str],
+        target: Target,
         questions: Sequence[Question],
         limits: Limits,
         on_progress: Progress,
     ) -> None:
         """Start the implementation for the first time. Raises `Unusable`."""
-        self._command, self._questions, self._limits = command, questions, limits
+        self._target, self._questions, self._limits = target, questions, limits
         self._on_progress = on_progress
         self._pending = deque(questions)
         self._outcomes: dict[str, Outcome] = {}
@@ -115,7 +130,7 @@ class Replay:
         self._lost = 0.0
         self._notes: list[str] = []
         self._ids = fresh_ids()
-        self._dialogue: Dialogue | None = Dialogue(command, limits, self._ids)
+        self._dialogue: Dialogue | None = target.open(limits, self._ids)
         self._hello = self._dialogue.hello
 
     def all(self) -> None:
@@ -191,7 +206,7 @@ class Replay:
             return True
         self._dialogue = None
         self._settle(question, reply)
-        return False
+        return isinstance(reply, Failure)
 
     def _single(self, question: Question) -> bool:
         """Ask one question with no other outstanding. Return whether one failed by itself."""
@@ -203,7 +218,7 @@ class Replay:
             return self._blame(dialogue, broken.failure)
         self._settle(question, reply)
         self._on_progress(len(self._outcomes))
-        return False
+        return isinstance(reply, Failure)
 
     def _settle(self, question: Question, outcome: Outcome) -> None:
         """Record an outcome; a later one replaces an earlier one."""
@@ -232,7 +247,7 @@ class Replay:
         for _ in range(STARTS):
             self._restarts += 1
             try:
-                dialogue = Dialogue(self._command, self._limits, self._ids)
+                dialogue = self._target.open(self._limits, self._ids)
             except Unusable as error:
                 seen = str(error)
                 continue

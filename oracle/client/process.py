@@ -27,6 +27,8 @@ TAIL = 4096
 """How many of the last bytes of standard error are kept."""
 SLICE = 0.2
 """How often, in seconds, a silent program is asked whether it still lives."""
+GATHER = 0.0003
+"""Seconds in which answers gather, to be read at once: to wake for each line costs more than it."""
 GRACE = 0.5
 """Seconds for what follows a death or a closed input: the exit status, the last bytes."""
 
@@ -217,6 +219,7 @@ class Process:
         with pipe, contextlib.suppress(OSError):
             while chunk := os.read(pipe.fileno(), CHUNK):
                 self._in.put(chunk)
+                time.sleep(GATHER)
         self._in.put(b"")
 
     def _drain(self, pipe: IO[bytes]) -> None:

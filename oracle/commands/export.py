@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from cases.corpus import Corpus
     from cases.formats import Format
     from cases.model import Ray, Solid
-    from cases.row import GoldenRow
+    from cases.row import End, GoldenRow
 
 COLUMNS = (
     "id",
@@ -31,6 +31,8 @@ COLUMNS = (
     "solid",
     "ray",
     "expected",
+    "down",
+    "up",
     "decisive",
     "sound_inner",
     "sound_outer",
@@ -57,21 +59,27 @@ type      and solid, together in prefix notation:
             cylinder  p q radius                   7 numbers
             union, intersection, difference        N, then N times: type solid
 ray       origin direction                         6 numbers
-expected  pairs: the exact list, every end rounded to nearest
+expected  pairs: the exact list, every end rounded to nearest; what touches is merged
+down      pairs      up      pairs: the ends of expected, rounded down and rounded up
 decisive  N, then N levels that the row decides: sound stable faithful exact
 inner     pairs      outer   pairs      most   N, then a count for each outer pair
 touches   N, then a word for each exact interval: none tangent wall cap rim start
 
 An answer, a list of pairs, is well-formed if 0 <= enter <= leave < the next enter,
-no number is NaN and no enter infinite (but where one of expected is); and, on the
-lattice tier, if its last leave is infinite just where that of expected is.
+no number is NaN and no enter infinite (but where one of up is); and, on the lattice
+tier, if it is empty or its last leave is infinite just where that of down is.
 
 It is sound (stable) if it is well-formed and
   each pair of the answer lies in a pair of sound_outer (stable_outer),
   each pair of sound_inner lies in a pair of the answer,
   each pair of sound_outer holds at most its sound_most pairs of the answer.
-It is exact if it is expected. A level counts the rows that are decisive for it,
-and none of the range tier.
+It is exact if it is expected, and faithful if it has as many pairs and each end is
+that of down or that of up. What a tracer declares to drop is left out of these three,
+where there is a word of touches for each pair of expected.
+
+A level counts the rows that are decisive for it, and none of the range tier. A row
+that is not well-formed, or not answered, fails every level; a row that fails a level
+that it decides fails the stronger ones that it decides.
 """
 
 
@@ -169,10 +177,27 @@ def cells(row: GoldenRow, fmt: Format) -> Iterator[str]:
     kind, _, solid = _solid(row.solid, fmt).partition(" ")
     yield from (row.id, row.tier, kind, solid, _ray(row.ray, fmt))
     yield _pairs(row.expected, fmt)
+    enclosing = merged_ends(row)
+    yield _pairs(tuple((enter.down, leave.down) for enter, leave in enclosing), fmt)
+    yield _pairs(tuple((enter.up, leave.up) for enter, leave in enclosing), fmt)
     yield _words(row.decisive)
     for level in ("sound", "stable"):
         yield from _accept(row.accept[level], fmt)
     yield _words(tuple(span.touch or "none" for span in row.intervals))
+
+
+def merged_ends(row: GoldenRow) -> list[tuple[End, End]]:
+    """Return the exact ends of each pair of the expected list, as merging leaves them.
+
+    Intervals touch after rounding if an enter is not beyond the leave before it.
+    """
+    ends: list[tuple[End, End]] = []
+    for span in row.intervals:
+        if ends and span.enter.nearest <= ends[-1][1].nearest:
+            ends[-1] = (ends[-1][0], span.leave)
+        else:
+            ends.append((span.enter, span.leave))
+    return ends
 
 
 def _solid(solid: Solid, fmt: Format) -> str:

@@ -42,15 +42,28 @@ STARTERS = {
     "java": Starter("Java", "javac Tracer.java", "java Tracer"),
     "javascript": Starter("JavaScript", "", "node client.mjs"),
     "python": Starter("Python", "", "python3 tracer.py"),
+    "library": Starter(
+        "C library",
+        "cc -std=c11 -shared -fPIC -O2 -ffp-contract=off -o tracer.so library.c tracer.c -lm",
+        "./tracer.so",
+    ),
 }
+
+READERS = "readers"
+"""No client: programs that judge answers by the golden rows alone. Asked for like a language."""
 
 EPILOG = """\b
 Each client is complete, and granted `stable` as it is: a port of the reference tracer
 stands in the place that is marked for yours. It needs the language's own toolchain only.
 
 \b
+`readers` in place of a language: two programs, in C and in JavaScript, that judge the
+answers of a tracer by the golden rows alone, without raycert.
+
+\b
 Examples:
   raycert harness c --out my_tracer
+  raycert harness readers
   raycert harness --list
 """
 
@@ -60,7 +73,7 @@ Examples:
 @click.option(
     "--out",
     type=click.Path(file_okay=False, path_type=Path),
-    help="Directory to write to  [default: tracer-LANG]",
+    help="Directory to write to  [default: tracer-LANG, or readers]",
 )
 @click.option("--force", is_flag=True, help="Overwrite files that are there.")
 @click.option("--list", "listing", is_flag=True, help="List the languages, and stop.")
@@ -69,21 +82,28 @@ def harness(lang: str | None, out: Path | None, force: bool, listing: bool) -> N
     if listing:
         for key, starter in STARTERS.items():
             click.echo(f"{key:12}{starter.name:12}{starter.build or starter.run}")
+        click.echo(f"{READERS:12}{'C, Node':12}judge answers without raycert; see README.md")
         return
-    if lang is None or lang not in STARTERS:
+    if lang is None or lang not in (*STARTERS, READERS):
         wrong = "no language is given" if lang is None else f"{lang!r} is not a language here"
-        raise click.UsageError(f"{wrong}; there are: {', '.join(STARTERS)}")
-    folder = out or Path(f"tracer-{lang}")
+        raise click.UsageError(f"{wrong}; there are: {', '.join((*STARTERS, READERS))}")
+    folder = out or Path(READERS if lang == READERS else f"tracer-{lang}")
     files = dict(templates(lang))
     _write(folder, files, force)
-    _advise(STARTERS[lang], folder, files)
+    if lang == READERS:
+        click.echo(f"Wrote {len(files)} files to {folder}. Its README.md says how to use them.")
+    else:
+        _advise(STARTERS[lang], folder, files)
 
 
 def templates(lang: str) -> Iterator[tuple[str, bytes]]:
     """Yield each file of a language's client: its path in the directory, and its bytes."""
     from importlib.resources import files
 
-    yield from _walk(files("oracle.starters") / lang, "")
+    root = files("oracle.starters")
+    yield from _walk(root / lang, "")
+    if lang == "library":  # binds the tracer of the C client
+        yield from ((name, (root / "c" / name).read_bytes()) for name in ("tracer.c", "tracer.h"))
 
 
 def _walk(folder: Traversable, path: str) -> Iterator[tuple[str, bytes]]:

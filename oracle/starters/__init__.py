@@ -2,5 +2,7 @@
 
 Each holds the whole line protocol and one marked place, `replace from here` to `to here`, for the
 user's own tracer; until then a port of the reference tracer stands there, so that it is granted
-`stable` as it is. The folders are data: nothing here is imported.
+`stable` as it is. `library` is a shared library instead of a program, and binds the tracer of `c`;
+`readers` holds two programs that judge answers without raycert, and is no client. The folders are
+data: nothing here is imported.
 """

@@ -1,0 +1,112 @@
+"""Code that is loaded, not spoken to: a Python callable or a shared library in a worker of ours.
+
+What it does to its process, a crash, an exit, a hang, is seen as that of a program is, and is
+pinned on its question in the same way (harness.py). Here: our end of the worker's pipes.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import oracle
+from cases.protocol import Answers, BadLine, Hello, Reply, read_hello
+from oracle.client.batch import write_batch
+from oracle.client.dialogue import Dialogue, Limits, Outcome, Question, Unusable, too_much
+from oracle.client.process import Broken, Failure, Process, shown
+
+ROOT = str(Path(oracle.__file__).parents[1])
+START = (
+    f"import sys; sys.path.insert(0, {ROOT!r}); from oracle.client.worker import main; "
+    f"sys.path.remove({ROOT!r}); kind, spec = sys.argv[1:]; del sys.argv[1:]; main(kind, spec)"
+)
+"""Our packages come first until they are loaded, whatever the current directory holds."""
+LINE = 1 << 24
+"""The worker ends its lines far below this."""
+BATCH = 64
+"""Questions in a batch: the worker is at one while we read the answers to the one before."""
+
+
+@dataclass(frozen=True, slots=True)
+class InProcess:
+    """A target: code by its kind and its place, `module:function` or the path of a library."""
+
+    kind: Literal["callable", "library"]
+    spec: str
+
+    def open(self, limits: Limits, ids: Iterator[str]) -> Worked:
+        """Start a worker and load the code there. Raises `Unusable`."""
+        return Worked(self, limits)
+
+
+class Worked(Dialogue):
+    """The dialogue with a worker."""
+
+    def __init__(self, target: InProcess, limits: Limits) -> None:
+        """Start the worker and read the hello. Raises `Unusable`."""
+        self._spec = target.spec
+        command = [sys.executable, "-P", "-c", START, target.kind, target.spec]
+        super().__init__(Process(command, LINE), limits)
+
+    def _greet(self) -> Hello:
+        try:
+            first, *self._held = self._process.receive(self._limits.hello)
+        except Broken as broken:
+            raise Unusable(f"loading {self._spec!r} failed: {broken.failure.detail}.") from None
+        try:
+            return read_hello(first)
+        except BadLine:
+            raise Unusable(json.loads(first)["unusable"]) from None
+
+    def _message(self, questions: list[Question]) -> bytes:
+        self._owed.extend((question.id, question) for question in questions)
+        asked = [(question.solid, question.ray) for question in questions]
+        batches = [write_batch(asked[i : i + BATCH]) for i in range(0, len(asked), BATCH)]
+        return b"".join(len(batch).to_bytes(4, "big") + batch for batch in batches)
+
+    def _match(self, line: bytes) -> Iterator[tuple[Question, Outcome]]:
+        answers = self._answers(line)
+        if len(answers) > len(self._owed):
+            raise Broken(too_much(line))
+        for answer in answers:
+            _, question = self._owed[0]
+            outcome = _outcome(question.id, answer, self.hello.answers)
+            if outcome is None:
+                raise Broken(_spoiled(line))
+            self._owed.popleft()
+            self.last = question
+            yield question, outcome
+
+    def _answers(self, line: bytes) -> list[object]:
+        try:
+            answers = json.loads(line)
+        except (ValueError, RecursionError):
+            answers = None
+        if not isinstance(answers, list):
+            raise Broken(_spoiled(line))
+        return answers
+
+
+def _outcome(id: str, answer: Any, form: Answers) -> Outcome | None:
+    """Return the outcome that an answer of the worker is; None if it cannot be one."""
+    try:
+        if isinstance(answer, dict):
+            if "bad" in answer:
+                return Failure("bad-line", answer["bad"])
+            return Reply(id, **answer)
+        if form == "intervals":
+            return Reply(id, intervals=tuple([(float(a), float(b)) for a, b in answer]))
+        if form == "any":
+            return Reply(id, hit=bool(answer))
+        return Reply(id, first=None if answer is None else float(answer))
+    except (TypeError, ValueError):
+        return None
+
+
+def _spoiled(line: bytes) -> Failure:
+    text = f"its worker wrote {shown(line)!r}: the code has spoiled its memory or its pipes"
+    return Failure("crash", text, shown(line, 1000))
