@@ -26,6 +26,7 @@ Examples:
   raycert zoo
   raycert zoo --fault no-clip --fault diameter    who refuses these
   raycert zoo --json matrix.json
+  raycert zoo --write-smoke oracle/zoo/smoke      choose the smoke rows anew
 
 Exit status: 0 every fault is refused by its home, 1 one is not, 2 bad usage.
 """
@@ -43,7 +44,13 @@ WIDE = 100
     help="Golden files to use instead of the installed ones.",
 )
 @click.option("--json", "out", type=click.Path(dir_okay=False, path_type=Path), metavar="FILE")
-def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None) -> None:
+@click.option(
+    "--write-smoke",
+    "folder",
+    type=click.Path(exists=True, file_okay=False, path_type=Path),
+    help="Choose the rows of certify --smoke, and write their ids there.",
+)
+def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: Path | None) -> None:
     """Try planted wrong tracers on the golden rows."""
     from rich.console import Console
 
@@ -52,6 +59,9 @@ def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None) -> None:
 
     if unknown := [name for name in names if name not in BY_NAME]:
         raise click.BadParameter(f"no such fault: {', '.join(unknown)}", param_hint="--fault")
+    if folder:
+        _write_smoke(golden or GOLDEN, folder)
+        return
     try:
         corpus = read_corpus("binary64", golden or GOLDEN)
     except BadCorpus as error:
@@ -64,6 +74,20 @@ def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None) -> None:
     if names:
         _families(lines, console)
     raise SystemExit(_summary(corpus, lines, console))
+
+
+def _write_smoke(golden: Path, folder: Path) -> None:
+    from cases.corpus import read_corpus, write_whole
+    from cases.formats import FORMATS
+    from oracle.commands.progress import counting
+    from oracle.zoo.catalog import FAULTS
+    from oracle.zoo.cover import chosen
+
+    for precision in FORMATS:
+        with counting(f"trying in {precision}", len(FAULTS)) as advance:
+            ids = chosen(read_corpus(precision, golden), advance)
+        write_whole(folder / f"{precision}.txt", "".join(f"{id}\n" for id in ids).encode("ascii"))
+        click.echo(f"{precision}: {len(ids)} rows")
 
 
 def _lines(corpus: Corpus, names: Sequence[str]) -> list[Line]:
