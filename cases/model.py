@@ -18,7 +18,7 @@ class Refused(ValueError):
 
     def __init__(self, path: str, reason: str) -> None:
         """Join path and reason into the message a person reads."""
-        super().__init__(f"{path}: {reason}" if path else reason)
+        super().__init__(f"{_shown(path)}: {reason}" if path else reason)
         self.path = path
         self.reason = reason
 
@@ -26,6 +26,11 @@ class Refused(ValueError):
         """Return the same refusal, seen from the object that holds the field as `parent`."""
         joined = f"{parent}.{self.path}" if self.path else parent
         return Refused(joined, self.reason)
+
+
+def _shown(path: str) -> str:
+    """Return a path as a person can read it: of a very deep one, both ends."""
+    return path if len(path) <= 200 else f"{path[:90]} ... {path[-90:]}"
 
 
 def real(value: object, path: str) -> float:

@@ -157,6 +157,8 @@ def prepare(plan: Plan) -> Prepared:
     """
     hello = greet(plan.target, plan.limits)
     corpus = read_corpus(hello.precision, plan.golden)
+    if not corpus.rows:
+        raise Unsuitable(f"there are no rows in {hello.precision} in {plan.golden}")
     fresh = _fresh(plan, hello)
     if absent := plan.selection.missing(corpus, fresh):
         raise NotInCorpus(f"not in the corpus: {', '.join(absent)}")

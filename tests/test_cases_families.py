@@ -10,6 +10,7 @@ from functools import cache
 import pytest
 
 from cases.case import TIERS, Case, Family
+from cases.corpus import read_corpus
 from cases.families.catalog import FAMILIES
 from cases.families.frames import ALIGNED, OBLIQUE, frames_for
 from cases.families.sketch import ALWAYS, MISS, Pairs, between, cylinder, pair, row, touch
@@ -307,6 +308,14 @@ AXIS = Ray((-8, 4, 3), (4, 0, 0))
 )
 def test_the_lattice_is_what_it_says(solid: Solid, ray: Ray, on: bool) -> None:
     assert is_lattice(solid, ray) is on
+
+
+@pytest.mark.parametrize("precision", FORMATS)
+def test_a_touch_on_the_lattice_is_the_whole_of_its_list(precision: str) -> None:
+    """So that keeping or dropping it shows as a pair or none, whatever else is answered."""
+    for row in read_corpus(precision).rows:
+        if row.tier == "lattice" and any(span.touch for span in row.intervals):
+            assert len(row.intervals) == len(row.expected) == 1, row.id
 
 
 def test_in_a_tree_no_leaf_of_the_lattice_ends_elsewhere_for_who_drops_touches() -> None:

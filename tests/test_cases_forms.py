@@ -269,3 +269,14 @@ def test_a_tree_may_be_deep_but_not_without_end():
     read_solid(nested(DEEPEST))
     with pytest.raises(Refused, match="nested more than"):
         read_solid(nested(DEEPEST + 1))
+
+
+def test_the_path_of_a_very_deep_field_is_short_enough_to_read() -> None:
+    ball: dict[str, object] = {"type": "sphere", "center": [0, 0, 0], "radius": -1}
+    for _ in range(150):
+        ball = {"type": "union", "of": [ball]}
+    with pytest.raises(Refused) as caught:
+        read_solid(ball)
+    assert len(str(caught.value)) < 300
+    assert str(caught.value).startswith("solid.of[0].of[0]")
+    assert ".radius: is negative" in str(caught.value)

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 import oracle
-from cases.corpus import read_corpus
+from cases.corpus import MANIFEST, manifest, read_corpus
 from oracle.certify import by_family
 from oracle.client.harness import Limits, Unusable
 from oracle.expectations import Expectation, Expectations
@@ -197,3 +197,12 @@ def test_not_one_easy_case_answered_is_nothing_tested(tmp_path: Path) -> None:
     mute = planted(tmp_path, "lambda solid, ray: __import__('os')._exit(3)")
     with pytest.raises(Unsuitable, match="none of the easy cases"):
         certify(Plan(mute, limits=Limits(case=2.0)))
+
+
+def test_an_empty_corpus_is_blamed_on_the_corpus(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("oracle.run.read_corpus", read_corpus)
+    (tmp_path / MANIFEST).write_bytes(manifest({}))
+    with pytest.raises(Unsuitable, match="no rows in binary64"):
+        prepare(Plan(GOOD, golden=tmp_path))
