@@ -1,42 +1,50 @@
 """The certificate as JSON: what was tested, with what, what was not, and how to repeat it.
 
-Pure: it is told everything, the environment too. Infinite errors are written as null.
+Pure: it is told everything, the environment too. Every report is rendered from this alone;
+schemas/certificate.schema.json describes it.
 """
 
 from __future__ import annotations
 
 import shlex
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from math import isfinite
 from typing import Any
 
 from cases.corpus import FORMAT_VERSION, Corpus
-from cases.forms import write_ray, write_solid
 from cases.protocol import Hello
-from cases.row import GoldenRow
 from oracle.certify import Group, Touches, Verdict, Window, by_family, by_solid
+from oracle.coverage import case_table
+from oracle.evidence import answered, case, failure, worst
 from oracle.grade import Grade
-from oracle.judge import LEVELS
+from oracle.judge import LEVELS, Level
 
 Json = dict[str, Any]
 CERTIFICATE_VERSION = 1
+MEASURED: tuple[Level, ...] = ("sound", "stable")
+"""The levels that a row may leave undecided."""
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
     """What `certify` was asked: the level and convention, and of whom."""
 
-    level: str
+    level: Level
     convention: str
     command: tuple[str, ...]
     selection: tuple[str, ...]
     """The options that narrow the corpus; empty for all of it."""
+    fresh: tuple[str, ...] = ()
+    """The options that draw rows beside it."""
 
     def repeat(self, *extra: str) -> str:
         """Return the command line that asks again."""
         options = ["--level", self.level, "--convention", self.convention, *extra]
         return shlex.join(["raycert", "certify", *options, *self.command])
+
+    def repeat_row(self, id: str) -> str:
+        """Return the command line that asks one row again, drawn anew if it was."""
+        return self.repeat(*(self.fresh if id.startswith("fresh-") else ()), "--id", id)
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,6 +55,10 @@ class Ran:
     notes: tuple[str, ...]
     seconds: float
     interrupted: bool = False
+    began: str | None = None
+    """When, in UTC as ISO 8601 has it."""
+    diagnosis: tuple[str, ...] = ()
+    """What the failing answers look like: the likely fault."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,36 +78,70 @@ def certificate(
     ran: Ran,
     verdict: Verdict,
     environment: Json,
+    expectations: Json | None = None,
+    shard: str | None = None,
+    fresh: Json | None = None,
 ) -> Json:
-    """Return the certificate of a run."""
-    groups = by_solid(grades)
-    usual = [g for g in grades if g.row.tier != "range"]
+    """Return the certificate of a run. `environment` is what `oracle.environment` tells.
+
+    `expectations` says how the failures compare with a file of known ones: `file`, and the lists
+    `expected`, `unexpected_passes`, `unmatched`, `new`.
+    """
+    passed = verdict.granted and not ran.interrupted
     return {
         "certificate": CERTIFICATE_VERSION,
-        "granted": verdict.granted and not asked.selection and not ran.interrupted,
-        "passed": verdict.granted and not ran.interrupted,
+        "granted": passed and not (asked.selection or shard or expectations),
+        "passed": passed,
+        "accepted": _accepted(expectations, ran, grades),
         "reasons": list(verdict.reasons),
         "asked": {"level": asked.level, "convention": asked.convention},
         "selection": list(asked.selection),
+        "shard": shard,
         "subject": {"command": list(asked.command), **asdict(hello)},
         "corpus": _corpus(corpus),
-        "environment": environment,
-        "run": asdict(ran),
+        "fresh": fresh,
+        "tool": environment["tool"],
+        "environment": {name: x for name, x in environment.items() if name != "tool"},
+        "run": {**asdict(ran), "notes": list(ran.notes), "diagnosis": list(ran.diagnosis)},
         "tested": len(grades),
         "not_tested": {"solids": list(left.solids), "rows": left.rows},
-        "not_decisive": {
-            level: {
-                "rows": [g.row.id for g in usual if not g.counts(level)],
-                "outside": [g.row.id for g in usual if level in g.outside],
-            }
-            for level in ("sound", "stable")
-        },
+        **_results(asked, hello, grades),
+        "expectations": expectations,
+        "reproduce": asked.repeat(*asked.fresh, *asked.selection),
+    }
+
+
+def _results(asked: Asked, hello: Hello, grades: Sequence[Grade]) -> Json:
+    """Return what the answers came to."""
+    groups = by_solid(grades)
+
+    return {
+        "not_decisive": _not_decisive(grades),
         "solids": {group.name: _solid(group) for group in groups},
         "families": [
             _family(group, solid) for solid in groups for group in by_family(solid.grades)
         ],
-        "failures": [failure(g, asked, hello) for g in grades if g.faults],
-        "reproduce": asked.repeat(*asked.selection),
+        "table": case_table(grades, asked.level),
+        "worst": worst(grades, asked.level, hello, asked.repeat_row),
+        "failures": [failure(g, asked.repeat_row) for g in grades if g.faults],
+    }
+
+
+def _accepted(expectations: Json | None, ran: Ran, grades: Sequence[Grade]) -> bool:
+    """Tell whether a run is as its file of known failures expects, to the last row."""
+    if expectations is None or ran.interrupted or not grades:
+        return False
+    return not any(expectations[name] for name in ("new", "unexpected_passes", "unmatched"))
+
+
+def _not_decisive(grades: Sequence[Grade]) -> Json:
+    usual = [g for g in grades if g.row.tier != "range"]
+    return {
+        level: {
+            "rows": [g.row.id for g in usual if not g.counts(level)],
+            "outside": [g.row.id for g in usual if level in g.outside],
+        }
+        for level in MEASURED
     }
 
 
@@ -138,50 +184,14 @@ def _window(window: Window | None) -> list[int] | None:
 
 
 def _family(group: Group, solid: Group) -> Json:
-    worst = group.worst()
+    grade = group.worst()
     return {
         "family": group.name,
         "solid": solid.name,
         "rows": len(group.grades),
         "levels": _levels(group),
-        "worst": {
-            **case(worst.row),
-            "answer": _pairs(worst.answer),
-            "expected": _pairs(worst.row.expected),
-            **errors(worst),
-        },
+        "worst": {**case(grade.row), **answered(grade)},
     }
-
-
-def case(row: GoldenRow) -> Json:
-    """Return a row's id and inputs, reals as hex floats."""
-    return {"id": row.id, "solid": write_solid(row.solid, "hex"), "ray": write_ray(row.ray, "hex")}
-
-
-def errors(grade: Grade) -> Json:
-    """Return the measured errors of an answer; null for an infinite one."""
-    measured = {"strict_k": grade.strict, "squared_k": grade.squared, "ulps": grade.ulps}
-    return {name: x if isfinite(x) else None for name, x in measured.items()}
-
-
-def failure(grade: Grade, asked: Asked, hello: Hello) -> Json:
-    """Return one failing row: why, what was answered, and the command that repeats it."""
-    return {
-        **case(grade.row),
-        "why": grade.row.why,
-        "tier": grade.row.tier,
-        "faults": dict(grade.faults),
-        "answer": _pairs(grade.answer),
-        "expected": _pairs(grade.row.expected),
-        **errors(grade),
-        "reproduce": asked.repeat("--id", grade.row.id),
-    }
-
-
-def _pairs(pairs: Iterable[tuple[float, float]] | None) -> list[list[str | None]] | None:
-    if pairs is None:
-        return None
-    return [[x.hex() if isfinite(x) else str(x) for x in pair] for pair in pairs]
 
 
 def contradictions(hello: Hello, grades: Sequence[Grade]) -> list[str]:

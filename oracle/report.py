@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from math import isinf
 from typing import Any, Literal
 
 from rich.console import Console
@@ -10,18 +9,37 @@ from rich.table import Table
 from rich.text import Text
 
 from oracle.judge import LEVELS
+from oracle.reports.reading import (
+    failing,
+    fault,
+    left_out,
+    likely,
+    notes,
+    said,
+    subject,
+    verdict,
+    windows,
+)
+from oracle.reports.text import clean, intervals, number
 
 Json = dict[str, Any]
 SHOWN = 8
 """How many failing rows are printed; the certificate has them all."""
+STYLES = {
+    "granted": "bold green",
+    "part": "bold",
+    "accepted": "bold yellow",
+    "refused": "bold red",
+    "interrupted": "bold red",
+}
 
 
 def report(certificate: Json, console: Console, out: str | None) -> None:
-    """Print a certificate for people."""
+    """Print a certificate for people. What a client said is printed as text, never as markup."""
     console.print(_solids(certificate))
     console.print(_families(certificate, console.width))
     for line in _notes(certificate):
-        console.print(line, highlight=False)
+        console.print(Text(line))
     _failures(certificate, console)
     console.print(_verdict(certificate))
     if out:
@@ -88,13 +106,6 @@ def _cut(text: str, room: int) -> str:
     return text if len(text) <= room else text[: max(room - 1, 0)] + "\u2026" if room > 8 else ""
 
 
-def number(x: float | None) -> str:
-    """Return a measured error in at most seven characters."""
-    if x is None or isinf(x):
-        return "inf"
-    return f"{x:.3g}" if x < 1e5 else f"{x:.0e}"
-
-
 def _fails(levels: Json) -> Text:
     for level in LEVELS:
         if failed := levels[level]["failed"]:
@@ -103,66 +114,27 @@ def _fails(levels: Json) -> Text:
 
 
 def _notes(certificate: Json) -> list[str]:
-    notes = [""]
-    left = certificate["not_tested"]
-    if left["solids"]:
-        notes.append(f"not tested: {', '.join(left['solids'])} (no rows sent)")
-    for level, ids in certificate["not_decisive"].items():
-        if ids["rows"]:
-            wrong = f", {len(ids['outside'])} of them answered wrong" if ids["outside"] else ""
-            notes.append(f"{level}: {len(ids['rows'])} rows do not decide{wrong}; not counted")
-    for name, solid in certificate["solids"].items():
-        window = solid["windows"]["stable"]
-        spans = [f"{what} {_span(*w)}" for what, w in window.items() if w]
-        if spans:
-            notes.append(f"{name}: stable for {' and '.join(spans)}")
-    run = certificate["run"]
-    if run["restarts"]:
-        notes.append(f"the target was restarted {run['restarts']} times")
-    return notes + [f"note: {note}" for note in run["notes"]]
-
-
-def _span(low: int, high: int) -> str:
-    ends = ([f"down to 2^{low}"] if low < 0 else []) + ([f"up to 2^{high}"] if high > 0 else [])
-    return " and ".join(ends) or "of usual size only"
+    told = [f"note: {note}" for note in notes(certificate)]
+    found = [f"likely fault: {line}" for line in likely(certificate)]
+    return ["", *left_out(certificate), *windows(certificate), *told, *found]
 
 
 def _failures(certificate: Json, console: Console) -> None:
-    level = certificate["asked"]["level"]
-    failing = [f for f in certificate["failures"] if level in f["faults"] and f["tier"] != "range"]
-    for failed in failing[:SHOWN]:
-        console.print(Text(f"\n{failed['id']}", "bold red"), highlight=False)
-        console.print(f"  {failed['why']}", highlight=False)
-        console.print(f"  {level}: {failed['faults'][level]}", highlight=False)
-        console.print(f"  answer   {_pairs(failed['answer'])}", highlight=False)
-        console.print(f"  expected {_pairs(failed['expected'])}", highlight=False)
-        console.print(f"  repeat   {failed['reproduce']}", highlight=False, soft_wrap=True)
-    if len(failing) > SHOWN:
-        console.print(f"\nand {len(failing) - SHOWN} more rows, all in the certificate")
-
-
-def _pairs(pairs: list[list[str]] | None) -> str:
-    if pairs is None:
-        return "none"
-    return "[" + ", ".join(f"[{_decimal(a)}, {_decimal(b)}]" for a, b in pairs) + "]"
-
-
-def _decimal(text: str) -> str:
-    return repr(float.fromhex(text))
+    found = failing(certificate)
+    for failed in found[:SHOWN]:
+        console.print(Text(f"\n{failed['id']}", "bold red"))
+        console.print(Text(f"  {clean(failed['why'])}"))
+        console.print(Text(f"  {certificate['asked']['level']}: {fault(certificate, failed)}"))
+        console.print(Text(f"  answer   {said(failed)}"))
+        console.print(Text(f"  expected {intervals(failed['expected'])}"))
+        repeat = clean(failed["reproduce"], 2000)
+        console.print(Text(f"  repeat   {repeat}"), soft_wrap=True)
+    if len(found) > SHOWN:
+        console.print(f"\nand {len(found) - SHOWN} more rows, all in the certificate")
 
 
 def _verdict(certificate: Json) -> Text:
-    asked, subject = certificate["asked"], certificate["subject"]["name"]
-    tested = {solid["convention"] for solid in certificate["solids"].values()} - {"not tested"}
-    what = f"{asked['level']} and {asked['convention'] if tested else '(convention not tested)'}"
-    if tolerance := certificate["subject"]["tolerance"]:
-        what += f", faces moved by a tolerance of {tolerance:g},"
-    if certificate["run"]["interrupted"]:
-        what += " (interrupted)"
-    rows = f"{certificate['tested']} rows of corpus {certificate['corpus']['version']}"
-    if certificate["granted"]:
-        return Text(f"\n{subject} is granted {what}: {rows}", "bold green")
-    if certificate["passed"]:
-        return Text(f"\n{subject} passes {what} on a part: {rows}; not a certificate", "bold")
-    lines = "".join(f"\n  {reason}" for reason in certificate["reasons"])
-    return Text(f"\n{subject} is not granted {what}:{lines}", "bold red")
+    found = verdict(certificate)
+    rows = f": {certificate['tested']} rows of corpus {certificate['corpus']['version']}"
+    reasons = "".join(f"\n  {reason}" for reason in found.reasons)
+    return Text(f"\n{subject(certificate)} {found.headline}{rows}{reasons}", STYLES[found.state])

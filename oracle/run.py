@@ -134,7 +134,8 @@ class Result:
         """
         plan, prepared = self.prepared.plan, self.prepared
         shard, fresh = plan.selection.shard, plan.fresh
-        asked = Asked(plan.level, plan.convention, tuple(command), plan.selection.options())
+        narrowed, drawn = plan.selection.options(), fresh.options() if fresh else ()
+        asked = Asked(plan.level, plan.convention, tuple(command), narrowed, drawn)
         return certificate(
             asked,
             prepared.hello,

@@ -84,7 +84,10 @@ def test_fresh_rows_are_asked_beside_the_golden_ones() -> None:
     result = certify(replace(plan, fresh=Fresh(5, 30)))
     assert sum(g.row.family == "fresh-5" for g in result.grades) == 30
     assert result.verdict.granted
-    assert result.form(("reference",))["fresh"] == {"seed": 5, "rows": 30}
+    form = result.form(("reference",))
+    assert form["fresh"] == {"seed": 5, "rows": 30}
+    assert "--seed 5 --fresh 30" in form["reproduce"]
+    assert not form["granted"]
 
 
 def test_only_keeps_some_families() -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from oracle.commands.output import check_writable
+from oracle.commands.reporting import write_reports
 from oracle.commands.targeting import TARGETS, aim, limits, limits_options, spelled, stop
 
 if TYPE_CHECKING:
@@ -67,9 +68,7 @@ input; 3 the target could not be run or nothing was tested.
 @click.option("--id", "ids", multiple=True, help="Only this row (repeatable).")
 @click.option("--smoke", is_flag=True, help="Only some 150 rows that refuse every planted fault.")
 @click.option("--shard", help="Only one of several parts, such as 2/5.")
-@click.option(
-    "--seed", type=click.IntRange(min=0), help="Ask cases drawn from this seed too."
-)
+@click.option("--seed", type=click.IntRange(min=0), help="Ask cases drawn from this seed too.")
 @click.option("--fresh", type=click.IntRange(1, 100_000), help="Cases in that block (500).")
 @click.option("--fail-fast", is_flag=True, help="End soon after the first row that fails.")
 @click.option("--expect", type=KNOWN, help="Known failures: a TOML file, with reasons.")
@@ -184,13 +183,9 @@ def _publish(form: dict[str, Any], options: dict[str, Any]) -> None:
     from oracle.report import report
 
     _write(options["out"], json.dumps(form, indent=1, allow_nan=False) + "\n")
-    asked = [name for name in REPORTS if options[name]]
-    if asked:
-        from oracle.reports.write import WRITERS
-
-        for name in asked:
-            _write(options[name], WRITERS[name](form))
-    written = " ".join(str(options[name]) for name in ("out", *asked))
+    asked = {name: str(options[name]) for name in REPORTS if options[name]}
+    write_reports(form, asked)
+    written = " ".join((str(options["out"]), *asked.values()))
     report(form, Console(width=None if sys.stdout.isatty() else 120), written)
 
 

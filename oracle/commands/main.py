@@ -9,6 +9,7 @@ import click
 
 VERBS: dict[str, tuple[str, str]] = {
     "certify": ("oracle.commands.certify:certify", "Grade an implementation on the golden cases."),
+    "report": ("oracle.commands.reporting:report", "Write the reports of a certificate again."),
     "explain": ("oracle.commands.explain:explain", "Derive one case in the seed's steps."),
     "list": ("oracle.commands.listing:list_cases", "List golden cases by family, flag, tier, row."),
     "show": ("oracle.commands.listing:show", "Show golden rows in full."),

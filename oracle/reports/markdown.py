@@ -1,0 +1,137 @@
+"""The certificate as Markdown, for the summary of a CI job: what to know, and how to repeat it.
+
+Whatever a client said stands in code spans, where no Markdown and no HTML is read.
+"""
+
+from __future__ import annotations
+
+from html import escape
+from typing import Any
+
+from oracle.judge import LEVELS
+from oracle.reports.reading import (
+    by_family,
+    failing,
+    fault,
+    left_out,
+    likely,
+    mark,
+    notes,
+    said,
+    subject,
+    verdict,
+    windows,
+)
+from oracle.reports.text import clean, count, intervals
+
+Json = dict[str, Any]
+FAMILIES, ROWS = 20, 5
+"""How many failing families are shown, and how many rows of each."""
+MARKS = {"passed": "\u2705", "failed": "\u274c", "open": "\u2796"}
+STATES = {"granted": "\u2705", "part": "\u2705", "accepted": "\u26a0\ufe0f"}
+
+
+def markdown(certificate: Json) -> str:
+    """Return the certificate as Markdown."""
+    found = verdict(certificate)
+    lines = [
+        f"### {STATES.get(found.state, MARKS['failed'])} {code(subject(certificate))} "
+        f"{found.headline}",
+        "",
+        *(f"- {code(reason)}" for reason in found.reasons),
+        *(f"- **likely fault:** {code(line)}" for line in likely(certificate)),
+        "",
+        *_solids(certificate),
+        "",
+        *_failures(certificate),
+        *_small(certificate),
+        "",
+    ]
+    return "\n".join(lines)
+
+
+def code(text: str) -> str:
+    """Return text as a code span: nothing in it is read as Markdown or HTML, nor ends a cell.
+
+    A pipe in a table ends the cell even in code, so it is shown as its double-barred likeness.
+    """
+    plain = clean(text, 1000).replace("|", "\u00a6")
+    longest = max((len(run) for run in _runs(plain)), default=0)
+    fence = "`" * (longest + 1)
+    pad = " " if plain.startswith("`") or plain.endswith("`") or not plain.strip() else ""
+    return f"{fence}{pad}{plain}{pad}{fence}"
+
+
+def _runs(text: str) -> list[str]:
+    """Return the runs of back quotes."""
+    return "".join(char if char == "`" else " " for char in text).split()
+
+
+def _solids(certificate: Json) -> list[str]:
+    lines = [
+        "| solid | " + " | ".join(LEVELS) + " | convention |",
+        "|---|" + "--:|" * len(LEVELS) + "---|",
+    ]
+    for name, solid in certificate["solids"].items():
+        cells = [_cell(solid["levels"][level]) for level in LEVELS]
+        lines.append(f"| {name} | " + " | ".join(cells) + f" | {solid['convention']} |")
+    return [
+        *lines,
+        *(f"| {n} |" + " not tested |" * 5 for n in certificate["not_tested"]["solids"]),
+    ]
+
+
+def _cell(tally: Json) -> str:
+    of = tally["passed"] + tally["failed"]
+    text = {"failed": f"{tally['failed']} of {of} fail", "passed": str(of), "open": "no row"}
+    return f"{MARKS[mark(tally)]} {text[mark(tally)]}"
+
+
+def _failures(certificate: Json) -> list[str]:
+    failures = by_family(failing(certificate))
+    if not failures:
+        return []
+    total = sum(map(len, failures.values()))
+    lines = [f"**{count(total, 'row')} fail in {count(len(failures), 'place')}**", ""]
+    for (solid, family), rows in list(failures.items())[:FAMILIES]:
+        lines += [
+            f"<details><summary>{solid}: {family} ({count(len(rows), 'row')})</summary>",
+            "",
+            *(line for failed in rows[:ROWS] for line in _row(certificate, failed)),
+        ]
+        lines += [f"- and {len(rows) - ROWS} more"] if len(rows) > ROWS else []
+        lines += ["", "</details>"]
+    if len(failures) > FAMILIES:
+        lines += ["", f"and {len(failures) - FAMILIES} more places, all in the certificate"]
+    return [*lines, ""]
+
+
+def _row(certificate: Json, failed: Json) -> list[str]:
+    return [
+        f"- {code(failed['id'])}: {escape(clean(failed['why']))}",
+        f"  - {code(fault(certificate, failed))}",
+        f"  - answer {code(said(failed))}, expected {code(intervals(failed['expected']))}",
+        f"  - {code(failed['reproduce'])}",
+    ]
+
+
+def _small(certificate: Json) -> list[str]:
+    """Return what was left out, the notes, and what it was made with."""
+    corpus, tool = certificate["corpus"], certificate["tool"]
+    made = (
+        f"{certificate['tested']} rows of corpus {corpus['version']} ({corpus['precision']}), "
+        f"{tool['name']} {tool['version']}, {certificate['run']['seconds']:.1f} s"
+    )
+    lines = [
+        *left_out(certificate),
+        *windows(certificate),
+        *notes(certificate),
+        f"repeat: {certificate['reproduce']}",
+    ]
+    return [
+        f"<details><summary>{made}</summary>",
+        "",
+        *(f"- {code(x)}" for x in lines),
+        "",
+        "</details>",
+    ]

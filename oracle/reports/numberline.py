@@ -1,0 +1,248 @@
+"""Intervals over a line of t, exact to the pixel: what is accepted, what is exact, what was said.
+
+Two scales: the whole of it, and close to the end that is farthest off, in ulps, where the
+difference is too small to see. Numbers are fractions until they are pixels.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import ceil, floor, frexp, inf, isfinite, log10
+from typing import Any
+from xml.etree.ElementTree import Element
+
+from cases.formats import Format
+from oracle.reports.svg import GUTTER, MIDDLE, PLOT, WIDTH, el, label
+
+Json = dict[str, Any]
+Number = Fraction | float
+Pairs = tuple[tuple[Number, Number], ...]
+ROW, BAR = 20, 10
+
+
+@dataclass(frozen=True, slots=True)
+class Lists:
+    """The lists of a case: numbers are fractions, or infinite. `said` is None without a list."""
+
+    exact: Pairs
+    inner: Pairs
+    outer: Pairs
+    said: Pairs | None
+    point: bool = False
+    """Whether what was said is a first hit: a list of one point."""
+
+    @classmethod
+    def of(cls, shown: Json) -> Lists:
+        """Read the lists of one of the worst cases; a first hit is a list of one point."""
+        accept, answer = shown["accept"], shown["answer"]
+        first = (shown["reply"] or {}).get("first")
+        if first is not None:
+            answer = [[first, first]]
+        exact = [(_read(s["enter"]["digits"]), _read(s["leave"]["digits"])) for s in shown["exact"]]
+        lists = (tuple(exact), _pairs(accept["inner"]), _pairs(accept["outer"]), _said(answer))
+        return cls(*lists, point=first is not None)
+
+    def finite(self, pairs: Pairs | None) -> list[Fraction]:
+        """Return the finite ends of a list."""
+        return [x for pair in pairs or () for x in pair if isinstance(x, Fraction)]
+
+
+def _said(pairs: Sequence[Sequence[str]] | None) -> Pairs | None:
+    """Return an answer that can be drawn: a list without NaN."""
+    read = None if pairs is None else _pairs(pairs)
+    return None if read is None or any(x != x for pair in read for x in pair) else read
+
+
+def _pairs(pairs: Sequence[Sequence[str]]) -> Pairs:
+    return tuple((hexed(a), hexed(b)) for a, b in pairs)
+
+
+def hexed(text: str) -> Number:
+    """Return the number that a hex float spells."""
+    x = float.fromhex(text)
+    return Fraction(x) if isfinite(x) else x
+
+
+def _read(digits: str) -> Number:
+    return inf if digits == "inf" else Fraction(digits)
+
+
+@dataclass(frozen=True, slots=True)
+class Axis:
+    """Where a t is on a drawing: `middle` is in the middle, `unit` of t is a pixel."""
+
+    middle: Fraction
+    unit: Fraction
+
+    def x(self, t: Number) -> float:
+        """Return the pixel of t, at most a little off the drawing."""
+        low, high = GUTTER - 8.0, WIDTH + 8.0
+        if not isinstance(t, Fraction):
+            return high if t > 0 else low
+        away = (t - self.middle) / self.unit
+        x = MIDDLE + float(max(Fraction(-WIDTH), min(away, Fraction(WIDTH))))
+        return max(low, min(x, high))
+
+    def shows(self, t: Number) -> bool:
+        """Tell whether t is on the drawing."""
+        return GUTTER <= self.x(t) <= WIDTH
+
+
+def whole(lists: Lists) -> Axis:
+    """Return an axis that shows every list from end to end."""
+    ends = lists.finite(lists.exact) or lists.finite(lists.said) or [Fraction(0)]
+    low, high = min(ends), max(ends)
+    span = high - low or abs(high) or Fraction(1)
+    return Axis((low + high) / 2, 2 * span / Fraction(PLOT))
+
+
+def bars(lists: Lists, axis: Axis, top: float, silence: str) -> Iterator[Element]:
+    """Yield the three lines: accepted, exact, answered. `silence` is said where there is no bar."""
+    names = ("accepted", "exact", "answered")
+    for i, name in enumerate(names):
+        y = top + ROW * i
+        yield label(0, y + BAR - 1, name, "name")
+        yield el("line", x1=GUTTER, x2=WIDTH, y1=y + BAR / 2, y2=y + BAR / 2, kind="rail")
+    yield from _bar(lists.outer, axis, top, "outer")
+    yield from _bar(lists.inner, axis, top, "inner")
+    yield from _bar(lists.exact, axis, top + ROW, "exact")
+    said = list(_bar(lists.said or (), axis, top + 2 * ROW, "said"))
+    yield from said
+    if not said:
+        yield label(GUTTER + 8, top + 2 * ROW + BAR - 1, silence, "name")
+
+
+def _bar(pairs: Pairs, axis: Axis, y: float, kind: str) -> Iterator[Element]:
+    for a, b in pairs:
+        left, right = axis.x(a), axis.x(b)
+        if right < GUTTER or left > WIDTH:
+            continue
+        left, right = max(left, GUTTER), min(right, WIDTH)
+        if right - left < 1.5:
+            middle = (left + right) / 2
+            yield el("path", d=_diamond(middle, y + BAR / 2), kind=kind)
+        else:
+            yield el("rect", x=left, y=y, width=right - left, height=BAR, kind=kind)
+            yield from _caps(axis, (a, b), y, kind)
+
+
+def _diamond(x: float, y: float) -> str:
+    r = BAR / 2 + 1
+    return f"M{x - r:.1f},{y:.1f} {x:.1f},{y - r:.1f} {x + r:.1f},{y:.1f} {x:.1f},{y + r:.1f}Z"
+
+
+def _caps(axis: Axis, pair: tuple[Number, Number], y: float, kind: str) -> Iterator[Element]:
+    """Yield a stroke at each end that is on the drawing: an end that is not runs on."""
+    for t in pair:
+        if axis.shows(t):
+            yield el(
+                "line", x1=axis.x(t), x2=axis.x(t), y1=y - 2, y2=y + BAR + 2, kind=f"{kind} cap"
+            )
+
+
+def ticks(axis: Axis, origin: Fraction, unit: Fraction, y: float) -> Iterator[Element]:
+    """Yield a scale in units from an origin, whole and round."""
+    span = float(PLOT * axis.unit / unit)
+    step = round_up(span / 6)
+    low = float((axis.middle - origin) / unit) - span / 2
+    for n in range(ceil(low / step), floor((low + span) / step) + 1):
+        x = axis.x(origin + Fraction(n) * Fraction(step) * unit)
+        yield el("line", x1=x, x2=x, y1=y, y2=y + 4, kind="tick")
+        if GUTTER + 14 < x < WIDTH - 14:
+            yield label(x, y + 16, f"{n * step:.6g}", "number", "middle")
+
+
+def round_up(x: float) -> float:
+    """Return the least of 1, 2, 5 times a power of ten that is at least x.
+
+    >>> round_up(0.3)
+    0.5
+    """
+    power = 10.0 ** floor(log10(x))
+    return next(m * power for m in (1, 2, 5, 10) if m * power >= x * 0.999)
+
+
+@dataclass(frozen=True, slots=True)
+class Close:
+    """A look at one end: `origin` is the number nearest to it, `ulp` the unit there."""
+
+    axis: Axis
+    origin: Fraction
+    ulp: Fraction
+    off: Fraction | None
+    """How far the answer's end is from there, in ulps; None where there is no answer's end."""
+
+    def unseen(self, lists: Lists, axis: Axis) -> bool:
+        """Tell whether it shows what the axis of the whole is too coarse for.
+
+        An end that is off by less than a few pixels, or an interval as short that was not met.
+        """
+        if self.axis.unit * 50 > axis.unit:
+            return False
+        seen = 3 * axis.unit
+        if lists.said:
+            alike = lists.point or len(lists.said) == len(lists.exact)
+            return (
+                self.off is not None
+                and abs(self.off) * self.ulp < seen
+                and (alike or abs(self.off) > 1)
+            )
+        ends = lists.finite(lists.exact)
+        return max(ends) - min(ends) < seen
+
+
+def close(lists: Lists, fmt: Format) -> Close | None:
+    """Return a look at the end that the answer misses most; None where no end is finite."""
+    exact = lists.finite(lists.exact)
+    said = lists.finite(lists.said)
+    best: tuple[Fraction, Fraction, Fraction | None] | None = None
+    for t, answered in _ends(lists, exact, said):
+        far = Fraction(0) if answered is None else abs(answered - t) / _ulp(t or answered, fmt)
+        if best is None or far > best[0]:
+            best = (far, t, answered)
+    if best is None:
+        return None
+    t, answered = best[1:]
+    ulp = _ulp(t or answered or t, fmt)
+    origin = Fraction(fmt.nearest(float(t)))
+    off = None if answered is None else (answered - origin) / ulp
+    near = [_nearest(t, lists.finite(pairs)) for pairs in (lists.inner, lists.outer)]
+    reach = max([Fraction(2), *(abs(x - t) / ulp for x in near if x is not None)])
+    if off is not None and abs(off) < 40 * reach:
+        reach = max(reach, abs(off))
+    return Close(Axis(origin, reach * ulp * Fraction(26, 10) / Fraction(PLOT)), origin, ulp, off)
+
+
+def _ends(
+    lists: Lists, exact: list[Fraction], said: list[Fraction]
+) -> Iterator[tuple[Fraction, Fraction | None]]:
+    """Yield exact ends, each with the answer's, but 0 with 0: 0 has no ulp to speak of.
+
+    In order where the lists are as long, else with the nearest; of a first hit only its nearest.
+    """
+    if lists.point and said and exact:
+        near = min(exact, key=lambda t: abs(t - said[0]))
+        if near or said[0]:
+            yield near, said[0]
+    elif lists.said is not None and len(lists.said) == len(lists.exact):
+        for one, other in zip(lists.exact, lists.said, strict=True):
+            for t, answered in zip(one, other, strict=True):
+                if isinstance(t, Fraction) and isinstance(answered, Fraction) and (t or answered):
+                    yield t, answered
+    else:
+        for t in filter(None, exact):
+            yield t, _nearest(t, said)
+
+
+def _nearest(t: Fraction, numbers: list[Fraction]) -> Fraction | None:
+    return min(numbers, key=lambda x: abs(x - t), default=None)
+
+
+def _ulp(t: Fraction, fmt: Format) -> Fraction:
+    """Return the unit in the last place of the numbers of a format around t."""
+    x = abs(float(t))
+    if not x:
+        return Fraction(2) ** fmt.least
+    return Fraction(2) ** max(frexp(x)[1] - fmt.precision, fmt.least)

@@ -1,0 +1,183 @@
+"""The certificate as one HTML page that needs nothing else: no network, no script, no font.
+
+The template escapes all text; what clients said is cleaned besides. Only the style sheet and the
+drawings, whose text their library escapes, go in as they are.
+"""
+
+from __future__ import annotations
+
+from importlib.resources import files
+from typing import Any
+
+from cases.table import PROBLEM_1, PROBLEM_2
+from oracle.judge import LEVELS
+from oracle.reports.picture import pictures
+from oracle.reports.reading import (
+    asked,
+    by_family,
+    failing,
+    family_of,
+    fault,
+    left_out,
+    levels_asked,
+    likely,
+    mark,
+    notes,
+    said,
+    subject,
+    verdict,
+    windows,
+)
+from oracle.reports.text import clean, count, intervals, number
+
+Json = dict[str, Any]
+LISTED, AT_MOST = 100, 4000
+"""How many failing rows of a family are listed, and how many in all."""
+SHOWN = 20
+"""How many families that fail are shown at once."""
+
+
+def page(certificate: Json) -> str:
+    """Return the certificate as a page."""
+    from jinja2 import Environment, StrictUndefined
+
+    here = files("oracle.reports")
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    environment.filters |= {"clean": clean, "count": count, "mark": mark}
+    template = environment.from_string((here / "page.html").read_text("utf-8"))
+    return template.render(
+        c=certificate,
+        style=(here / "page.css").read_text("utf-8"),
+        levels=LEVELS,
+        **_verdict(certificate),
+        **_matrix(certificate),
+        grid=_grid(certificate),
+        columns=[row.name for row in PROBLEM_2],
+        worst=[_worst(certificate, shown) for shown in certificate["worst"]],
+        listed=_listed(certificate),
+        not_decisive=_not_decisive(certificate),
+        made=_made(certificate),
+    )
+
+
+def _verdict(certificate: Json) -> Json:
+    return {
+        "verdict": verdict(certificate),
+        "asked": asked(certificate),
+        "within": levels_asked(certificate),
+        "subject": subject(certificate),
+        "likely": likely(certificate),
+        "notes": notes(certificate),
+        "left_out": left_out(certificate),
+        "windows": windows(certificate),
+        "reproduce": clean(certificate["reproduce"], 2000),
+        "began": _moment(certificate["run"]["began"]),
+    }
+
+
+def _moment(began: str | None) -> str:
+    """Return a moment as people write it."""
+    return clean((began or "").replace("T", " ").replace("+00:00", " UTC"), 40)
+
+
+def _matrix(certificate: Json) -> Json:
+    """Return the families, those in which something asked fails before the others."""
+    within = levels_asked(certificate)
+
+    def fails(family: Json) -> int:
+        return sum(1 for level in within if family["levels"][level]["failed"])
+
+    def share(family: Json) -> float:
+        return -float(max(family["levels"][level]["failed"] for level in within))
+
+    failed = sorted((f for f in certificate["families"] if fails(f)), key=share)
+    return {
+        "failed": failed,
+        "held": [f for f in certificate["families"] if not fails(f)],
+        "number": number,
+        "shown": SHOWN,
+    }
+
+
+def _grid(certificate: Json) -> list[tuple[str, list[Json]]]:
+    """Return the capped cylinder's cells: a line for each row of Problem 1."""
+    cells = {tuple(cell["rows"]): cell for cell in certificate["table"]["cylinder"]}
+    return [(one.name, [cells[one.name, two.name] for two in PROBLEM_2]) for one in PROBLEM_1]
+
+
+def _worst(certificate: Json, shown: Json) -> Json:
+    level = certificate["asked"]["level"]
+    failed = level in shown["faults"]
+    return {
+        "id": shown["id"],
+        "family": family_of(shown["id"]),
+        "solid": shown["solid"]["type"].replace("_", " "),
+        "kind": shown["kind"],
+        "why": clean(shown["why"]),
+        "fault": fault(certificate, shown, 300) if failed else "",
+        "answer": clean(said(shown), 400),
+        "expected": intervals(shown["expected"]),
+        "errors": [number(shown[name]) for name in ("strict_k", "squared_k", "ulps")],
+        "reproduce": clean(shown["reproduce"], 2000),
+        "pictures": pictures(shown, certificate["corpus"]["precision"]),
+    }
+
+
+def _listed(certificate: Json) -> list[Json]:
+    """Return the failing rows by family, as many as a page can hold."""
+    failures = by_family(failing(certificate))
+    most = min(LISTED, AT_MOST // max(len(failures), 1))
+    return [
+        {
+            "solid": solid,
+            "family": family,
+            "rows": [
+                (clean(row["id"].partition("/")[2], 80), fault(certificate, row, 110))
+                for row in rows[:most]
+            ],
+            "count": len(rows),
+            "more": max(len(rows) - most, 0),
+        }
+        for (solid, family), rows in failures.items()
+    ]
+
+
+def _not_decisive(certificate: Json) -> list[tuple[str, int, list[str]]]:
+    """Return, for each level asked, how many rows do not decide it, and of which families."""
+    found = []
+    for level in levels_asked(certificate):
+        ids = certificate["not_decisive"].get(level, {"rows": []})["rows"]
+        families: dict[str, int] = {}
+        for id in ids:
+            families[family_of(id)] = families.get(family_of(id), 0) + 1
+        if ids:
+            found.append((level, len(ids), [f"{name} {n}" for name, n in families.items()]))
+    return found
+
+
+def _made(certificate: Json) -> list[tuple[str, str]]:
+    """Return what it was made with, as terms and values."""
+    declared, corpus, tool = (certificate[name] for name in ("subject", "corpus", "tool"))
+    made, run, fresh = (certificate[name] for name in ("environment", "run", "fresh"))
+    values = {
+        "subject": subject(certificate, 200),
+        "command": clean(" ".join(declared["command"]), 500),
+        "declares": f"{declared['answers']}, {declared['precision']}, "
+        f"{clean(declared['convention'])}, numbers as {declared['numbers']}, "
+        f"tolerance {declared['tolerance']:g}",
+        "solids": ", ".join(declared["solids"]),
+        "asked": asked(certificate),
+        "corpus": f"{corpus['version']}, {corpus['precision']}, {corpus['rows']:,} rows",
+        "fresh": "" if fresh is None else f"{fresh['rows']:,} cases of seed {fresh['seed']}",
+        "manifest": corpus["manifest_sha256"],
+        "tool": f"{tool['name']} {tool['version']}",
+        "source": tool["sha256"],
+        "run": f"{certificate['tested']:,} rows in {run['seconds']:.1f} s, "
+        f"{count(run['restarts'], 'restart')}"
+        + (f", began {_moment(run['began'])}" if run["began"] else ""),
+        "machine": f"{made['implementation']} {made['python']}, {made['system']}, "
+        f"{made['cores']} cores",
+    }
+    return [(term, value) for term, value in values.items() if value]

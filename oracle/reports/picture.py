@@ -1,0 +1,138 @@
+"""The pictures of one case: ray and solid over the intervals in t, and a close look in ulps."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from fractions import Fraction
+from math import frexp
+from typing import Any
+from xml.etree.ElementTree import Element
+
+from cases.formats import FORMATS
+from cases.forms import read_ray, read_solid
+from cases.model import Refused
+from oracle.reports.numberline import ROW, Axis, Close, Lists, bars, close, ticks, whole
+from oracle.reports.scene import ASPECT, Scene, scene
+from oracle.reports.svg import GUTTER, MIDDLE, PLOT, WIDTH, drawing, el, label, path, spelled
+from oracle.reports.text import clean
+
+Json = dict[str, Any]
+TALL = PLOT * ASPECT
+GAP = 14
+
+
+def pictures(shown: Json, precision: str) -> list[tuple[str, str]]:
+    """Return (caption, drawing) for one of the worst cases: the whole, and a close look.
+
+    The close look is left out where there is no finite end, and where it would show no more.
+    """
+    lists = Lists.of(shown)
+    try:
+        solid = read_solid(shown["solid"], "solid", "hex")
+        ray = read_ray(shown["ray"], "ray", "hex")
+    except Refused:
+        return []
+    view = scene(solid, ray, lists.finite(lists.exact))
+    axis = whole(lists) if view is None else _axis(view)
+    silence = _silence(shown)
+    found = [_whole(view, lists, axis, silence)]
+    near = close(lists, FORMATS[precision])
+    if near is not None and near.unseen(lists, axis):
+        found.append(_close(lists, near, "" if lists.said else silence))
+    return found
+
+
+def _silence(shown: Json) -> str:
+    """Return what to say in place of the answered intervals."""
+    if (shown["reply"] or {}).get("hit") is not None:
+        return f"hit: {str(shown['reply']['hit']).lower()}"
+    if shown["reply"] is not None:
+        return "no hit"
+    if shown["answer"] == []:
+        return "no interval"
+    return clean(next(iter(shown["faults"].values()), "nothing"), 44)
+
+
+def _axis(view: Scene) -> Axis:
+    """Return the axis of t under a picture: the ray is its line."""
+    return Axis(view.middle, Fraction(2 * view.half / PLOT) / view.speed)
+
+
+def _whole(view: Scene | None, lists: Lists, axis: Axis, silence: str) -> tuple[str, str]:
+    top = 4.0 if view is None else TALL + GAP
+    parts = [] if view is None else [*_scene(view, axis), *_guides(lists, axis, top)]
+    foot = top + 3 * ROW
+    if lists.said:
+        silence = f"elsewhere, from t = {float(lists.said[0][0]):.6g}"
+    base = _base(axis)
+    parts += [*bars(lists, axis, top, silence), *ticks(axis, base, Fraction(1), foot)]
+    parts.append(label(0, foot + 16, "t" if not base else "t - c", "name"))
+    name = "The intervals" if view is None else view.plane.name
+    caption = f"{name}, over t" + (f" - c, c = {float(base):.17g}" if base else "")
+    return caption, drawing(foot + 20, caption, *parts)
+
+
+def _base(axis: Axis) -> Fraction:
+    """Return what is taken off the labels: 0, or a round t near the middle if that is far away."""
+    span = axis.unit * PLOT
+    if abs(axis.middle) < 5000 * span:
+        return Fraction(0)
+    power = Fraction(2) ** frexp(float(span))[1]
+    return Fraction(float(round(axis.middle / power) * power))
+
+
+def _scene(view: Scene, axis: Axis) -> Iterator[Element]:
+    """Yield the solid, its leaves' outlines and the ray, in the frame of a picture."""
+    scale = PLOT / (2 * view.half)
+
+    def pixel(x: float, y: float) -> tuple[float, float]:
+        return MIDDLE + x * scale, TALL / 2 - (y - view.rise) * scale
+
+    thick = max(TALL / 90, 1.5)
+    lines = [(*pixel(a, y), pixel(b, y)[0]) for y, a, b in view.filled()]
+    strokes = "".join(f"M{spelled(x)},{spelled(y)}H{spelled(end)}" for x, y, end in lines)
+    yield el("rect", x=GUTTER, y=0, width=PLOT, height=TALL, kind="frame")
+    if strokes:
+        yield el("path", d=strokes, kind="solid", stroke_width=thick)
+    outlines = list(view.outlines())
+    for outline in outlines:
+        yield el("path", d=path((pixel(*p) for p in outline), closed=True), kind="leaf")
+    if not outlines:
+        yield label(MIDDLE, 20, "the solid is out of the picture", "name", "middle")
+    start = axis.x(Fraction(0))
+    height = pixel(0, 0)[1]
+    left = max(start, GUTTER)
+    yield el("line", x1=left, x2=WIDTH - 6, y1=height, y2=height, kind="ray")
+    yield el("path", d=f"M{WIDTH - 9},{height - 4:.1f}l8,4l-8,4Z", kind="tip")
+    if start >= GUTTER:
+        yield el("circle", cx=start, cy=height, r=3.5, kind="start")
+    else:
+        yield label(GUTTER + 6, height - 6, "\u2190 start", "name")
+
+
+def _guides(lists: Lists, axis: Axis, top: float) -> Iterator[Element]:
+    """Yield a line from each exact end on the ray down to the intervals."""
+    for t in lists.finite(lists.exact):
+        if axis.shows(t):
+            x = axis.x(t)
+            yield el("line", x1=x, x2=x, y1=0, y2=top + ROW, kind="guide")
+
+
+def _close(lists: Lists, near: Close, silence: str) -> tuple[str, str]:
+    top, foot = 4.0, 4.0 + 3 * ROW
+    parts = [*bars(lists, near.axis, top, silence), *ticks(near.axis, near.origin, near.ulp, foot)]
+    parts.append(label(0, foot + 16, "ulps", "name"))
+    if near.off is not None and not near.axis.shows(near.origin + near.off * near.ulp):
+        parts += _pointer(near, top + 2 * ROW)
+    caption = f"Close to t = {float(near.origin)!r}, in ulps of {float(near.ulp):.2g}"
+    return caption, drawing(foot + 20, caption, *parts)
+
+
+def _pointer(near: Close, y: float) -> list[Element]:
+    """Return what points to an answer's end that is not on the drawing."""
+    assert near.off is not None
+    ulps = max(Fraction(-(10**300)), min(near.off, Fraction(10**300)))
+    far = f"{float(ulps):+.2g} ulps".replace("e+", "e")
+    if near.off > 0:
+        return [label(WIDTH - 4, y + 9, f"end at {far} \u2192", "off", "end")]
+    return [label(GUTTER + 4, y + 9, f"\u2190 end at {far}", "off")]

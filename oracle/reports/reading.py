@@ -1,0 +1,172 @@
+"""What a certificate says, read once for every report: verdict, failures, what was left out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from oracle.judge import LEVELS
+from oracle.reports.text import SHORT, clean, count, intervals
+
+Json = dict[str, Any]
+State = Literal["granted", "part", "accepted", "refused", "interrupted"]
+Mark = Literal["passed", "failed", "open"]
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """The verdict in words: `headline` completes the name of the subject."""
+
+    state: State
+    headline: str
+    reasons: tuple[str, ...]
+
+    @property
+    def good(self) -> bool:
+        """Tell whether the run is one to be content with."""
+        return self.state in ("granted", "part", "accepted")
+
+
+def verdict(certificate: Json) -> Verdict:
+    """Return the verdict."""
+    what, state = asked(certificate), _state(certificate)
+    headline = {
+        "granted": f"is granted {what}",
+        "part": f"passes {what} on a part of the corpus; not a certificate",
+        "accepted": f"run accepted, not certified: its failures to be {what} are the expected ones",
+        "refused": f"is not granted {what}",
+        "interrupted": f"is not granted {what}: the run was interrupted",
+    }[state]
+    reasons = [clean(reason) for reason in certificate["reasons"]]
+    return Verdict(state, headline, (*reasons, *surprises(certificate)))
+
+
+def _state(certificate: Json) -> State:
+    if certificate["granted"]:
+        return "granted"
+    if certificate["run"]["interrupted"]:
+        return "interrupted"
+    if certificate["accepted"]:
+        return "accepted"
+    if certificate["passed"] and certificate["expectations"] is None:
+        return "part"
+    return "refused"
+
+
+def asked(certificate: Json) -> str:
+    """Return what was asked: `stable and closed`."""
+    level, wanted = certificate["asked"]["level"], certificate["asked"]["convention"]
+    tested = {solid["convention"] for solid in certificate["solids"].values()} - {"not tested"}
+    what = f"{level} and {clean(wanted)}" if tested else f"{level}, convention not tested"
+    tolerance = certificate["subject"]["tolerance"]
+    return what + (f", faces moved by a tolerance of {tolerance:g}" if tolerance else "")
+
+
+def surprises(certificate: Json) -> list[str]:
+    """Return how a run differs from its file of known failures, a sentence each."""
+    expectations = certificate["expectations"] or {}
+    about = {
+        "new": "not expected",
+        "unexpected_passes": "expected to fail",
+        "unmatched": "expected, and about nothing",
+    }
+    found = []
+    for name, words in about.items():
+        entries = expectations.get(name, [])
+        found += [f"{words}: {clean(entry)}" for entry in entries[:5]]
+        found += [f"{words}: {len(entries) - 5} more"] if len(entries) > 5 else []
+    return found
+
+
+def subject(certificate: Json, most: int = SHORT) -> str:
+    """Return the name and version of what was tested."""
+    declared = certificate["subject"]
+    return clean(f"{declared['name']} {declared['version']}".rstrip(), most)
+
+
+def levels_asked(certificate: Json) -> tuple[str, ...]:
+    """Return the level asked for and those below it: the verdict is about these."""
+    return LEVELS[: LEVELS.index(certificate["asked"]["level"]) + 1]
+
+
+def failing(certificate: Json) -> list[Json]:
+    """Return the failures that the verdict is about, in the order of the corpus."""
+    level = certificate["asked"]["level"]
+    return [f for f in certificate["failures"] if level in f["faults"] and f["tier"] != "range"]
+
+
+def fault(certificate: Json, failed: Json, most: int = 160) -> str:
+    """Return why a row fails what was asked."""
+    return clean(failed["faults"][certificate["asked"]["level"]], most)
+
+
+def family_of(id: str) -> str:
+    """Return the family that a row belongs to."""
+    return id.partition("/")[0]
+
+
+def by_family(failures: list[Json]) -> dict[tuple[str, str], list[Json]]:
+    """Return failures by (type of solid, family)."""
+    found: dict[tuple[str, str], list[Json]] = {}
+    for failed in failures:
+        found.setdefault((failed["solid"]["type"], family_of(failed["id"])), []).append(failed)
+    return found
+
+
+def mark(tally: Json) -> Mark:
+    """Return whether rows failed, passed, or none of them decides."""
+    return "failed" if tally["failed"] else "passed" if tally["passed"] else "open"
+
+
+def said(shown: Json) -> str:
+    """Return what was answered to a row, in decimal."""
+    reply = shown["reply"]
+    if reply is None:
+        return intervals(shown["answer"])
+    if "hit" in reply:
+        return f"hit: {str(reply['hit']).lower()}"
+    return f"first: {'null' if reply['first'] is None else repr(float.fromhex(reply['first']))}"
+
+
+def left_out(certificate: Json) -> list[str]:
+    """Return what was not tested or not counted."""
+    left, lines = certificate["not_tested"], []
+    if left["solids"]:
+        lines.append(f"not tested: {', '.join(left['solids'])} (no rows sent)")
+    if left["rows"]:
+        lines.append(f"{count(left['rows'], 'row')} of the corpus not sent")
+    if certificate["shard"]:
+        lines.append(f"only shard {clean(certificate['shard'])} of the corpus")
+    for level, ids in certificate["not_decisive"].items():
+        if ids["rows"]:
+            wrong = f", {len(ids['outside'])} of them answered wrong" if ids["outside"] else ""
+            lines.append(f"{level}: {len(ids['rows'])} rows do not decide{wrong}; not counted")
+    return lines
+
+
+def windows(certificate: Json) -> list[str]:
+    """Return, for each solid, the scales around 1 in which it is `stable`."""
+    lines = []
+    for name, solid in certificate["solids"].items():
+        window = solid["windows"]["stable"]
+        spans = [f"{what} {_span(*w)}" for what, w in window.items() if w]
+        if spans:
+            lines.append(f"{name}: stable for {' and '.join(spans)}")
+    return lines
+
+
+def _span(low: int, high: int) -> str:
+    ends = ([f"down to 2^{low}"] if low < 0 else []) + ([f"up to 2^{high}"] if high > 0 else [])
+    return " and ".join(ends) or "of usual size only"
+
+
+def notes(certificate: Json) -> list[str]:
+    """Return what was seen beside the answers."""
+    run = certificate["run"]
+    restarts = [f"the target was restarted {run['restarts']} times"] if run["restarts"] else []
+    return restarts + [clean(note) for note in run["notes"]]
+
+
+def likely(certificate: Json) -> list[str]:
+    """Return the likely fault: one sentence, or none."""
+    return [clean(line) for line in certificate["run"]["diagnosis"]]

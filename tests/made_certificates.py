@@ -1,0 +1,131 @@
+"""Certificates of known runs, made in process from a sample of the corpus, as read from JSON."""
+
+import json
+from collections.abc import Callable, Iterable
+from functools import cache
+from typing import Any
+
+from cases.corpus import Corpus, read_corpus
+from cases.model import Ray, Solid
+from cases.protocol import Hello, Reply
+from cases.row import GoldenRow
+from oracle.certificate import Asked, Left, Ran, certificate
+from oracle.certify import verdict
+from oracle.client.process import Failure
+from oracle.environment import environment
+from oracle.grade import Grade, grade
+from oracle.judge import Level
+from oracle.zoo.catalog import BY_NAME
+
+Json = dict[str, Any]
+Outcome = Reply | Failure
+HOSTILE = (
+    "<script>document.title='owned'</script></title><img src=x onerror=alert(1)> \u202eRTL \x00 "
+    "\ud800 \x1b[31m ``` | ]]> [/red] e" + "\u0301" * 50
+)
+STEP = 20
+
+
+@cache
+def corpus() -> Corpus:
+    return read_corpus()
+
+
+@cache
+def sample() -> tuple[GoldenRow, ...]:
+    """Return some rows of every family."""
+    seen: dict[str, int] = {}
+    taken = []
+    for row in corpus().rows:
+        n = seen[row.family] = seen.get(row.family, -1) + 1
+        if n % STEP == 0:
+            taken.append(row)
+    return tuple(taken)
+
+
+def right(row: GoldenRow, n: int) -> Outcome:
+    return Reply(row.id, intervals=row.expected)
+
+
+def planted(name: str) -> Callable[[GoldenRow, int], Outcome]:
+    tracer: Callable[[Solid, Ray], Iterable[tuple[float, float]]] = BY_NAME[name].make()
+    return lambda row, n: Reply(row.id, intervals=tuple(tracer(row.solid, row.ray)))
+
+
+def hostile(row: GoldenRow, n: int) -> Outcome:
+    """Answer with what no report may be broken by."""
+    lists: dict[int, tuple[tuple[float, float], ...]] = {
+        3: ((float("nan"), 1.0),),
+        4: tuple((2.0 * i, 2.0 * i + 1) for i in range(300)),
+        5: ((0.0, float("inf")), (-1.0, float("-inf"))),
+        6: ((1e300, 1.5e300),),
+    }
+    if n % 8 == 0:
+        return Reply(row.id, error=HOSTILE * 8)
+    if n % 8 == 1:
+        return Failure("crash", HOSTILE * 8)
+    if n % 8 == 2:
+        return Failure("hang", "no answer for 5 s")
+    return Reply(row.id, intervals=lists.get(n % 8, ()))
+
+
+def first(row: GoldenRow, n: int) -> Outcome:
+    """Answer the first hit, too far by a little."""
+    return Reply(row.id, first=row.expected[0][0] * (1 + 1e-9) if row.expected else None)
+
+
+def yes_no(row: GoldenRow, n: int) -> Outcome:
+    return Reply(row.id, hit=n % 3 > 0)
+
+
+def made(
+    answer: Callable[[GoldenRow, int], Outcome],
+    level: Level = "stable",
+    hello: Hello | None = None,
+    rows: tuple[GoldenRow, ...] | None = None,
+    interrupted: bool = False,
+    selection: tuple[str, ...] = (),
+    **more: Any,
+) -> Json:
+    """Return the certificate of a run, as read back from its file."""
+    hello = hello or Hello("a tracer", "1.0")
+    rows = sample() if rows is None else rows
+    grades: list[Grade] = [grade(row, answer(row, n), hello) for n, row in enumerate(rows)]
+    asked = Asked(level, "closed", ("--", "./tracer"), selection)
+    ran = Ran(1, ("a note",), 1.25, interrupted, "2026-01-02T03:04:05+00:00", ("likely this",))
+    judged = verdict(grades, level, "closed")
+    form = certificate(
+        asked, hello, corpus(), grades, Left((), 0), ran, judged, environment(), **more
+    )
+    read: Json = json.loads(json.dumps(form, allow_nan=False))
+    return read
+
+
+@cache
+def good() -> Json:
+    return made(right)
+
+
+@cache
+def bad() -> Json:
+    return made(planted("caps-forgotten"))
+
+
+@cache
+def attacked() -> Json:
+    hello = Hello(HOSTILE + "A" * 100_000, version="</style>" + HOSTILE)
+    return made(hostile, hello=hello)
+
+
+def expecting(**lists: list[str]) -> Json:
+    """Return what is said of a file of known failures."""
+    names = ("expected", "unexpected_passes", "unmatched", "new")
+    return {"file": "known.toml"} | {name: lists.get(name, []) for name in names}
+
+
+def accepted() -> Json:
+    """Return the certificate of a run whose failures are the expected ones."""
+    rows = tuple(row for row in sample() if row.id.startswith("perpendicular/"))
+    failing = [f["id"] for f in made(planted("caps-forgotten"), rows=rows)["failures"]]
+    told = expecting(expected=failing)
+    return made(planted("caps-forgotten"), rows=rows, expectations=told)
