@@ -90,7 +90,7 @@ def certificate(
     passed = verdict.granted and not ran.interrupted
     return {
         "certificate": CERTIFICATE_VERSION,
-        "granted": passed and not (asked.selection or shard or expectations),
+        "granted": passed and not (asked.selection or shard or _departs(expectations)),
         "passed": passed,
         "accepted": _accepted(expectations, ran, grades),
         "reasons": list(verdict.reasons),
@@ -127,11 +127,20 @@ def _results(asked: Asked, hello: Hello, grades: Sequence[Grade]) -> Json:
     }
 
 
+LISTS = ("expected", "new", "unexpected_passes", "unmatched")
+"""What a file of known failures may have to say of a run."""
+
+
+def _departs(expectations: Json | None) -> bool:
+    """Tell whether known failures were made use of, or are not as the file says."""
+    return expectations is not None and any(expectations[name] for name in LISTS)
+
+
 def _accepted(expectations: Json | None, ran: Ran, grades: Sequence[Grade]) -> bool:
     """Tell whether a run is as its file of known failures expects, to the last row."""
     if expectations is None or ran.interrupted or not grades:
         return False
-    return not any(expectations[name] for name in ("new", "unexpected_passes", "unmatched"))
+    return not any(expectations[name] for name in LISTS[1:])
 
 
 def _not_decisive(grades: Sequence[Grade]) -> Json:

@@ -39,7 +39,13 @@ HEAVY = {
     "dask",
     "distributed",
 }
-MAY_LOAD = ("oracle/witness/", "oracle/batch/", "oracle/plots/", "reference/batch/")
+MAY_LOAD = (
+    "oracle/witness/",
+    "oracle/batch/",
+    "oracle/methods/vector/",
+    "oracle/plots/",
+    "reference/batch/",
+)
 """The packages that exist to use a heavy one: their modules may load it at their top."""
 NAMED = ("oracle/pytest_plugin.py",)
 """Modules that nobody but the program that they plug into imports."""

@@ -149,7 +149,9 @@ def test_a_shard_and_expectations_are_no_certificate() -> None:
     rows = made_up.sample()[:40]
     assert made(made_up.right, rows=rows)["granted"]
     assert not made(made_up.right, rows=rows, shard="1/2")["granted"]
-    assert not made(made_up.right, rows=rows, expectations=made_up.expecting())["granted"]
+    for told, granted in ((["a/b"], False), ([], True)):
+        expectations = made_up.expecting(expected=told)
+        assert made(made_up.right, rows=rows, expectations=expectations)["granted"] == granted
 
 
 def test_the_hash_of_the_tool_is_of_every_source_file(tmp_path: Path) -> None:

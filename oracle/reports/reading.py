@@ -46,9 +46,9 @@ def _state(certificate: Json) -> State:
         return "granted"
     if certificate["run"]["interrupted"]:
         return "interrupted"
-    if certificate["accepted"]:
+    if certificate["accepted"] and certificate["expectations"]["expected"]:
         return "accepted"
-    if certificate["passed"] and certificate["expectations"] is None:
+    if certificate["passed"] and (certificate["accepted"] or certificate["expectations"] is None):
         return "part"
     return "refused"
 
