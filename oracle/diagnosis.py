@@ -77,12 +77,12 @@ def explained(
 
     The share is 0 where the failures alone keep it below SHARE.
     """
-    tracer, ids = fault.make(), {g.row.id for g in failing}
-    outcomes = [Outcome.of(tracer, g.row, bench.format) for g in grades]
+    ids = {g.row.id for g in failing}
+    outcomes = _outcomes(fault, grades, ids)
+    if outcomes is None:
+        return 0, 0.0
     tried = list(zip(grades, outcomes, bench.base, strict=True))
     agreed = sum(agrees(g, outcome) for g, outcome, _ in tried if g.row.id in ids)
-    if agreed < SHARE * len(failing):
-        return agreed, 0.0
     levels = ("sound",) if level == "sound" else ("sound", "stable")
     others = 0
     for g, outcome, base in tried:
@@ -90,6 +90,19 @@ def explained(
             refusal = bench.refusal(g.row, outcome, base)
             others += refusal is not None and refusal.level in levels
     return agreed, agreed / (len(failing) + others)
+
+
+def _outcomes(fault: Fault, grades: Sequence[Grade], failing: set[str]) -> list[Outcome] | None:
+    """Return what a fault answers to all rows; None once it disagrees on too many failures."""
+    tracer, outcomes = fault.make(), []
+    spare = (1 - SHARE) * len(failing)
+    for g in grades:
+        outcome = Outcome.of(tracer, g.row, g.judge.format)
+        outcomes.append(outcome)
+        spare -= g.row.id in failing and not agrees(g, outcome)
+        if spare < 0:
+            return None
+    return outcomes
 
 
 def agrees(grade: Grade, outcome: Outcome) -> bool:
