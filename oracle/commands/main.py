@@ -25,6 +25,8 @@ VERBS: dict[str, tuple[str, str]] = {
         "Check the oracle by independent witnesses.",
     ),
     "bench": ("oracle.commands.bench:bench", "Time the oracle beside other ways, as ratios."),
+    "render": ("oracle.commands.render:render", "Render a scene: depth, normals, thickness, error."),
+    "plan": ("oracle.commands.plan:plan", "What a scene lets the tracer leave out, and why."),
     "serve": ("oracle.commands.serve:serve", "Answer the line protocol: oracle or reference."),
 }
 

@@ -1,0 +1,157 @@
+"""`raycert render`: a scene through the reference tracer, to a PNG."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from oracle.commands.listing import BadInput
+from oracle.commands.output import check_writable
+from oracle.commands.scenes import Asked, needs, read, scene_argument, start, table
+
+if TYPE_CHECKING:
+    from cases.scene import Scene
+
+SHOWS = ("depth", "normal", "thickness", "count", "error")
+BOUND = 64
+"""The k that the level `stable` allows."""
+
+EPILOG = """\b
+What is shown:
+  depth      the distance along the ray to the first hit
+  normal     the outward normal there, x y z as red green blue
+  thickness  the total length inside the solid, which only interval lists give
+  count      how many intervals the ray has
+  error      k, the backward error of each pixel's list, judged by the exact oracle:
+             the list is right for the solid with its faces moved by k roundings
+
+\b
+Examples:
+  raycert render --list
+  raycert render die
+  raycert render pipe --show thickness -o pipe.png
+  raycert render cylinder --show error --size 160x120
+  raycert render far --show error --size 160x120 --tracer textbook
+  raycert render far --pixel 48,75 | raycert explain --json -
+
+\b
+A scene of your own:
+  {"solids": {"ball": {"type": "sphere", "center": [0, 0, 0], "radius": 1}},
+   "camera": {"type": "perspective", "eye": [3, -4, 2], "look_at": [0, 0, 0],
+              "up": [0, 0, 1], "fov": 40},
+   "size": [640, 480]}
+An orthographic camera has "height", what it sees from bottom to top, in place of
+the vertical angle "fov" in degrees.
+"""
+
+
+@click.command(epilog=EPILOG)
+@scene_argument
+@click.option(
+    "-o", "--out", type=click.Path(dir_okay=False, path_type=Path), help="PNG.  [SCENE-SHOW.png]"
+)
+@click.option("--show", type=click.Choice(SHOWS), default="depth", show_default=True)
+@click.option("--size", metavar="WxH", help="Pixels, in place of the scene's size.")
+@click.option(
+    "--tracer",
+    type=click.Choice(("reference", "textbook")),
+    default="reference",
+    show_default=True,
+    help="textbook: b^2 - a c in plain doubles, to see what it loses.",
+)
+@click.option("--off", multiple=True, help="Leave this item of the plan off (repeatable).")
+@click.option("--pixel", metavar="X,Y", help="Print this pixel's solid and ray, as JSON.")
+@click.option("--list", "listed", is_flag=True, help="List the scenes that come with raycert.")
+def render(scene: str | None, out: Path | None, **options: Any) -> None:
+    """Render SCENE, a file or the name of a scene that comes with raycert, to a PNG.
+
+    The rays go through the reference tracer, in batches, with the bits of the scalar one. Below
+    the picture a strip says what its colours mean; one line tells the hits, the extremes, the
+    time, and what the plan left out (see: raycert plan).
+
+    --show error judges every pixel's list exactly and says which pixel is worst; start with
+    --size 160x120. Exit 1 if an error is above 64, the bound of the level stable.
+    """
+    if options["listed"]:
+        table()
+        return
+    read_scene, name = read(scene, options["size"])
+    if options["pixel"]:
+        click.echo(_pixel(read_scene, options["pixel"]))
+        return
+    needs("numpy", "PIL")
+    out = out or Path(f"{name}-{options['show']}.png")
+    check_writable(out.parent, "--out")
+    asked = Asked(options["show"], options["tracer"], options["off"])
+    raise SystemExit(_render(read_scene, scene or "", out, asked, options["size"]))
+
+
+def _render(scene: Scene, source: str, out: Path, asked: Asked, size: str | None) -> int:
+    began = time.perf_counter()
+    started = start(scene, asked)
+    from oracle.plots.heatmap import extremes, of_scene, save, shown  # while the tracer works
+
+    found = started.arrays()
+    rows = _errors(scene, found) if asked.show == "error" else []
+    values = _array(rows) if rows else found["values"]
+    save(of_scene(values, asked.show, ", textbook" if asked.tracer == "textbook" else ""), out)
+    width, height = scene.size
+    words = [f"{width}x{height}", f"{started.about['hits']} of {width * height} rays hit"]
+    if asked.show != "normal" and (ends := extremes(values)):
+        words.append(f"{asked.show} {shown(ends[0], *ends)} to {shown(ends[1], *ends)}")
+    click.echo(f"{out}: {', '.join(words)}, {time.perf_counter() - began:.2f} s")
+    click.echo(f"left out: {', '.join(started.about['left_out']) or 'nothing'}")
+    return _tell_errors(rows, f"{source} --size {size}" if size else source) if rows else 0
+
+
+def _array(rows: list[list[float]]) -> Any:
+    import numpy as np
+
+    return np.array(rows)
+
+
+def _errors(scene: Scene, found: dict[str, Any]) -> list[list[float]]:
+    """Return k of every pixel, row by row, judged in two processes."""
+    from oracle.commands.progress import counting
+    from oracle.scene_errors import every_row
+
+    arrays = (found[name].tolist() for name in ("enter", "leave", "count"))
+    answers = [list(zip(a[:n], b[:n], strict=True)) for a, b, n in zip(*arrays, strict=True)]
+    rows = []
+    with counting("judging", scene.size[1]) as advance:
+        for row in every_row(scene, answers):
+            rows.append(row)
+            advance()
+    return rows
+
+
+def _tell_errors(rows: list[list[float]], source: str) -> int:
+    """Print the largest k and its pixel; return 1 if it is beyond the bound of `stable`."""
+    worst, x, y = max(
+        ((k, x, y) for y, row in enumerate(rows) for x, k in enumerate(row)), key=lambda at: at[0]
+    )
+    above = [sum(k > bound for row in rows for k in row) for bound in (1, BOUND)]
+    click.echo(f"k at most {worst:.4g}; pixels above 1: {above[0]}, above {BOUND}: {above[1]}")
+    click.echo(f"worst: raycert render {source} --pixel {x},{y} | raycert explain --json -")
+    return 1 if worst > BOUND else 0
+
+
+def _pixel(scene: Scene, words: str) -> str:
+    """Return the case of a pixel as the line protocol has it, numbers as hex floats."""
+    import json
+
+    from cases.forms import write_ray, write_solid
+    from cases.scene import frame, pixel_ray
+
+    column, _, row = words.partition(",")
+    width, height = scene.size
+    if not (column.isdecimal() and row.isdecimal()):
+        raise BadInput(f"--pixel: is not X,Y, two whole numbers: {words!r:.40}")
+    if not (int(column) < width and int(row) < height):
+        raise BadInput(f"--pixel: {words} is not in a picture of {width}x{height}")
+    ray = pixel_ray(frame(scene.camera), scene.size, int(column), int(row))
+    form = {"solid": write_solid(scene.solid, "hex"), "ray": write_ray(ray, "hex")}
+    return json.dumps(form)
