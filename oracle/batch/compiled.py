@@ -1,0 +1,160 @@
+"""The compiled engine: `chunks` and all that it calls, through numba, bit for bit as written.
+
+The functions are compiled from the same code objects, each module in a namespace of its own. Only
+`two_prod` is computed otherwise, where the processor has fma: both are exact; and `larger` and
+`choose`, by the words of the language. Contraction and fast math stay off, numba's defaults. The
+machine code is kept in the user's cache folder, in a folder named for the sources.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import os
+from functools import cache
+from pathlib import Path
+from types import FunctionType, ModuleType
+from typing import Any
+
+import numpy as np
+
+from oracle.batch import arithmetic, bounds, chunks, decide, formulas, probe
+from oracle.batch.lanes import UNSURE, Floats, Found
+from oracle.batch.plan import BALL, CAPPED_BALL, CAPPED_WALL, WALL, Plan
+
+SOURCES: tuple[ModuleType, ...] = (arithmetic, bounds, formulas, decide, probe, chunks)
+CURVED = {BALL: 1, CAPPED_BALL: 1, WALL: 2, CAPPED_WALL: 2}
+OUTER = ("run", "probe", "load", "screen", "solve", "join", *(n for n in vars(chunks) if "_" in n))
+"""What is called a chunk at a time; all else is part of its caller."""
+
+
+def cache_folder() -> Path:
+    """Return where compiled code is kept: a folder of the user's cache, new for new sources."""
+    digest = hashlib.sha256()
+    for module in SOURCES:
+        digest.update(Path(str(module.__file__)).read_bytes())
+    root = os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache"
+    return Path(root) / "raycert" / f"numba-{digest.hexdigest()[:16]}"
+
+
+@cache
+def compiled(name: str = "run") -> Any:
+    """Return a function of `chunks` or `probe` compiled. Raises `ImportError` without numba."""
+    return _functions()[name]
+
+
+@cache
+def _functions() -> dict[str, Any]:
+    """Return the outer functions by name, after all that they call."""
+    import numba
+
+    config: Any = numba.core.config
+    if config.DISABLE_JIT:
+        raise ImportError("NUMBA_DISABLE_JIT is set")
+    done: dict[FunctionType, Any] = {}
+    before = config.CACHE_DIR
+    config.CACHE_DIR = _writable(cache_folder())
+    try:
+        for module in SOURCES:
+            names = vars(module) | {
+                name: done[function]
+                for name, function in vars(module).items()
+                if isinstance(function, FunctionType) and function in done
+            }
+            for name, function in list(names.items()):
+                if isinstance(function, FunctionType) and function.__module__ == module.__name__:
+                    names[name] = done[function] = _compiled(numba, function, names)
+    finally:
+        config.CACHE_DIR = before
+    return {function.__name__: done[function] for function in done if function.__name__ in OUTER}
+
+
+def _compiled(numba: Any, function: FunctionType, names: dict[str, Any]) -> Any:
+    """Return a function compiled that finds what it calls among the names, or what replaces it."""
+    if function in (arithmetic.larger, arithmetic.choose):
+        return _replaced(numba)[function.__name__]
+    if function is arithmetic.two_prod and _has_fma(numba.core.config):
+        return _two_prod_by_fma()
+    outer = function.__name__ in OUTER
+    kept = bool(numba.core.config.CACHE_DIR) and function.__name__ in ("run", "probe")
+    options = {"error_model": "numpy", "forceinline": not outer, "cache": kept}
+    return numba.njit(**options)(_rebound(function, names))
+
+
+def _rebound(function: FunctionType, names: dict[str, Any]) -> FunctionType:
+    """Return the same code, which finds what it calls among the names."""
+    rebound = FunctionType(function.__code__, names, function.__name__)
+    rebound.__module__ = function.__module__
+    rebound.__qualname__ = function.__qualname__
+    return rebound
+
+
+def _replaced(numba: Any) -> dict[str, Any]:
+    """Return what is computed otherwise than as written, with the same bits."""
+
+    @numba.njit(forceinline=True)  # type: ignore[untyped-decorator]
+    def larger(a: Any, b: Any) -> Any:
+        return a if a > b else b
+
+    @numba.njit(forceinline=True)  # type: ignore[untyped-decorator]
+    def choose(where: Any, a: Any, b: Any) -> Any:
+        return a if where else b
+
+    return {"larger": larger, "choose": choose}
+
+
+def _writable(folder: Path) -> str:
+    """Return the folder's name, made if need be; empty where it cannot be: nothing is kept then."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError:
+        return ""
+    return str(folder) if os.access(folder, os.W_OK) else ""
+
+
+def _has_fma(config: Any) -> bool:
+    """Tell whether the code is made for this processor, and it has a fused multiply-add."""
+    from llvmlite import binding
+
+    if config.CPU_NAME or config.CPU_FEATURES:
+        return False
+    try:
+        return bool(binding.get_host_cpu_features().get("fma"))
+    except RuntimeError:
+        return False
+
+
+def _two_prod_by_fma() -> Any:
+    """Return a b exactly, by the fused multiply-add of the processor."""
+    from llvmlite import ir
+    from numba import njit, types
+    from numba.extending import intrinsic
+
+    @intrinsic
+    def fused(typing: Any, a: Any, b: Any, c: Any) -> Any:
+        def build(context: Any, builder: Any, signature: Any, args: Any) -> Any:
+            double = ir.DoubleType()
+            kind = ir.FunctionType(double, [double] * 3)
+            function = builder.module.declare_intrinsic("llvm.fma", [double], kind)
+            return builder.call(function, args)
+
+        return types.float64(types.float64, types.float64, types.float64), build
+
+    fma: Any = fused
+
+    @njit(forceinline=True)
+    def two_prod(a: Any, b: Any) -> Any:
+        p = a * b
+        return p, fma(a, b, -p)
+
+    return two_prod
+
+
+def leaf_block(plan: Plan, rays: Floats) -> Found:
+    """Return what both fast rungs decide of a block of rays, given as six rows."""
+    n = rays.shape[1]
+    if plan.reason:
+        return Found.unsure(n)
+    state, rung, ends = np.full(n, UNSURE, np.uint8), np.zeros(n, np.uint8), np.empty((4, n))
+    kind = CURVED.get(plan.kind, 0)
+    compiled()(rays, plan.constants, kind, plan.planes, state, rung, ends)
+    return Found(state, rung, *ends)

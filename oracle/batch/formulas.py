@@ -1,0 +1,188 @@
+"""What decides a lane, each with its bound: in float64, and the same in double-double.
+
+With a ray y + t v in the frame of the solid, y = u - p:
+
+    a, g    sphere: v, y        cylinder: v x w, y x w
+    A, B, C = a.a, a.g, g.g - R, R = r^2 |w|^2 (sphere: r^2):    |g + t a|^2 <= R
+    G       sphere: r^2 A - |y x v|^2        cylinder: r^2 A - (y.a)^2
+    D       B^2 - A C = |w|^2 G  (sphere: G), by Lagrange's identity
+
+G has no cancellation that the distance of the origin makes. Roots are -(B +- sqrt D) / A: with
+q = |B| + sqrt D, which does not cancel, they are q / A (`far`) and C / q (`near`) but for signs.
+A plane is c + b t <= 0 with c = y.n, b = v.n. No branches here: arrays and compiled lanes both.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from oracle.batch.arithmetic import (
+    Number,
+    Pair,
+    Singles,
+    Triple,
+    add,
+    choose,
+    cross,
+    cross_scaled,
+    div,
+    dot,
+    dot_scaled,
+    dot_single,
+    heads,
+    mul,
+    root,
+    size,
+    sub,
+)
+from oracle.batch.bounds import (
+    ROOT,
+    SLACK,
+    SMALL,
+    UU,
+    U,
+    cross_bound,
+    dot_bound,
+    less_bound,
+    over_bound,
+    root_bound,
+    square_bound,
+)
+
+Bounded = tuple[Number, Number]
+"""A float64 and the bound on its error."""
+Bounded2 = tuple[Pair, Number]
+"""A pair and the bound on its error."""
+
+
+def cross_plain(a: Singles, b: Singles) -> Singles:
+    """Return a x b in float64."""
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def dot_plain(a: Singles, b: Singles) -> Number:
+    """Return a . b in float64."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def gap_ball(y: Singles, v: Singles, rr: Number) -> tuple[Any, ...]:
+    """Return (G, its bound) in float64 of a sphere, y rounded."""
+    k = cross_plain(y, v)
+    ek, km = cross_bound(U, size(y), size(v)), size(k)
+    aa, kk, vm = dot_plain(v, v), dot_plain(k, k), size(v)
+    bound = less_bound(U, rr * aa, rr * square_bound(U, vm, 0.0), kk, square_bound(U, km, ek))
+    return rr * aa - kk, bound * SLACK
+
+
+def gap_wall(y: Singles, v: Singles, w: Singles, wm: float, rr: Number) -> tuple[Any, ...]:
+    """Return (a, its bound, G, its bound) in float64 of a cylinder, y and w rounded."""
+    a = cross_plain(v, w)
+    ea, am, ym = cross_bound(U, size(v), wm), size(a), size(y)
+    aa, det = dot_plain(a, a), abs(dot_plain(y, a))
+    ed = dot_bound(U, ym, 0.0, am, ea)
+    bound = less_bound(U, rr * aa, rr * square_bound(U, am, ea), det * det, ed * (2.0 * det + ed))
+    return a, ea, rr * aa - det * det, bound * SLACK
+
+
+def start_plain(a: Singles, ea: Number, g: Singles, eg: Number, cap: Number) -> tuple[Any, ...]:
+    """Return (B, its bound, C, its bound) in float64; `cap` is R."""
+    am, gm, gg = size(a), size(g), dot_plain(g, g)
+    return (
+        dot_plain(a, g),
+        dot_bound(U, am, ea, gm, eg) * SLACK,
+        gg - cap,
+        less_bound(U, gg, square_bound(U, gm, eg), cap, 0.0) * SLACK,
+    )
+
+
+def plane_plain(y: Singles, v: Singles, n: Singles, nm: float) -> tuple[Any, ...]:
+    """Return (c, its bound, b, its bound) in float64 of a plane, y and n rounded."""
+    ym, vm = size(y), size(v)
+    return (
+        dot_plain(y, n),
+        dot_bound(U, ym, 0.0, nm, 0.0) * SLACK,
+        dot_plain(v, n),
+        dot_bound(U, vm, 0.0, nm, 0.0) * SLACK,
+    )
+
+
+def square(a: Triple, ea: Number) -> Bounded2:
+    """Return a.a of a vector of parts within ea."""
+    return dot(a, a), square_bound(UU, size(heads(a)), ea)
+
+
+def excess(rr: Pair, aa: Bounded2, qq: Bounded2) -> Bounded2:
+    """Return rr A - Q."""
+    first = mul(aa[0], rr)
+    bound = less_bound(UU, first[0], rr[0] * aa[1], qq[0][0], qq[1])
+    return sub(first, qq[0]), bound * SLACK
+
+
+def ball(y: Triple, v: Singles, rr: Pair) -> tuple[Any, ...]:
+    """Return (A, B, C, G) of a sphere, each a pair and its bound."""
+    vm, ym = size(v), size(heads(y))
+    aa = dot_single(v, v), square_bound(UU, vm, 0.0)
+    gap = excess(rr, aa, square(cross_scaled(y, v), cross_bound(UU, ym, vm)))
+    b = dot_scaled(y, v), dot_bound(UU, vm, 0.0, ym, 0.0) * SLACK
+    return aa, b, constant((dot(y, y), square_bound(UU, ym, 0.0)), rr), gap
+
+
+def wall(y: Triple, v: Singles, w: Triple, wm: float, rr: Pair, cap: Pair) -> tuple[Any, ...]:
+    """Return (A, B, C, G) of a cylinder, each a pair and its bound; `cap` is R."""
+    ym = size(heads(y))
+    a, ea = cross_scaled(w, v), cross_bound(UU, wm, size(v))
+    g, eg = cross(w, y), cross_bound(UU, wm, ym)
+    am, gm = size(heads(a)), size(heads(g))
+    aa = square(a, ea)
+    det, ed = dot(y, a), dot_bound(UU, ym, 0.0, am, ea)
+    gap = excess(rr, aa, (mul(det, det), ed * (2.0 * abs(det[0]) + ed)))
+    b = dot(a, g), dot_bound(UU, am, ea, gm, eg) * SLACK
+    return aa, b, constant(square(g, eg), cap), gap
+
+
+def constant(gg: Bounded2, cap: Pair) -> Bounded2:
+    """Return C = g.g - R."""
+    return sub(gg[0], cap), less_bound(UU, gg[0][0], gg[1], cap[0], 0.0) * SLACK
+
+
+def divisor(gap: Bounded2, root_w: Pair) -> Bounded2:
+    """Return sqrt(D) = sqrt(|w|^2) sqrt(G), G > 0 certainly."""
+    s = root(gap[0])
+    es = root_bound(UU, gap[0][0], s[0], gap[1])
+    return mul(s, root_w), (es + (ROOT * UU) * s[0]) * root_w[0]
+
+
+def away(b: Bounded2, z: Bounded2) -> Bounded2:
+    """Return q = |B| + sqrt(D): the sign is that of B's leading double, certain or not.
+
+    With s that sign, q stands for s B + sqrt(D), whatever the true sign: the roots of the module's
+    text are identities in s.
+    """
+    s = choose(b[0][0] < 0.0, -1.0, 1.0)
+    q = add((s * b[0][0], s * b[0][1]), z[0])
+    return q, b[1] + z[1] + (ROOT * UU) * q[0]
+
+
+def ratio(x: Bounded2, y: Bounded2) -> Bounded2:
+    """Return x / y, y > 0 certainly; no bound is given (NaN) where y is not `SMALL`'s."""
+    t = div(x[0], y[0])
+    bound = over_bound(UU, t[0], x[1], y[0][0], y[1]) * SLACK
+    return t, choose(y[1] <= SMALL * y[0][0], bound, np.nan)
+
+
+def plane(y: Triple, v: Singles, n: Triple, nm: float) -> tuple[Any, ...]:
+    """Return (c, b) of a plane, each a pair and its bound."""
+    c = dot(y, n), dot_bound(UU, size(heads(y)), 0.0, nm, 0.0) * SLACK
+    return c, (dot_scaled(n, v), dot_bound(UU, size(v), 0.0, nm, 0.0) * SLACK)
+
+
+def ends(t: Bounded2) -> tuple[Number, Number]:
+    """Return two doubles between which t rounds to nearest: where they are equal, to it.
+
+    The bound takes up u |l| <= u^2 |h| for the sum of l and it; what follows rounds monotonously.
+    """
+    (h, low), bound = t
+    margin = bound + (2.0 * UU) * abs(h)
+    return h + (low - margin), h + (low + margin)
