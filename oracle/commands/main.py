@@ -27,6 +27,7 @@ VERBS: dict[str, tuple[str, str]] = {
     "bench": ("oracle.commands.bench:bench", "Time the oracle beside other ways, as ratios."),
     "render": ("oracle.commands.render:render", "Render a scene: depth, normals, thickness, error."),
     "plan": ("oracle.commands.plan:plan", "What a scene lets the tracer leave out, and why."),
+    "stress": ("oracle.commands.stress:stress", "Set error against how stiff the problem is."),
     "serve": ("oracle.commands.serve:serve", "Answer the line protocol: oracle or reference."),
 }
 
