@@ -313,9 +313,9 @@ def test_the_lattice_is_what_it_says(solid: Solid, ray: Ray, on: bool) -> None:
 @pytest.mark.parametrize("precision", FORMATS)
 def test_a_touch_on_the_lattice_is_the_whole_of_its_list(precision: str) -> None:
     """So that keeping or dropping it shows as a pair or none, whatever else is answered."""
-    for row in read_corpus(precision).rows:
-        if row.tier == "lattice" and any(span.touch for span in row.intervals):
-            assert len(row.intervals) == len(row.expected) == 1, row.id
+    for known in read_corpus(precision).rows:
+        if known.tier == "lattice" and any(span.touch for span in known.intervals):
+            assert len(known.intervals) == len(known.expected) == 1, known.id
 
 
 def test_in_a_tree_no_leaf_of_the_lattice_ends_elsewhere_for_who_drops_touches() -> None:

@@ -1,0 +1,120 @@
+"""How plots look, and how they are written: to be read in grey, and reproducible to the byte.
+
+Every family of methods has a mark of its own and a shade; a line has a dash of its own. Text is
+drawn as outlines in the font that comes with matplotlib, and no file holds a date.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+
+DPI = 160
+INK, FAINT, GRID, PAPER = "#1a1a1a", "#767676", "#dddddd", "#ffffff"
+RC: Any = {
+    "font.family": "DejaVu Sans",
+    "font.size": 9.0,
+    "axes.titlesize": 10.0,
+    "axes.labelsize": 9.5,
+    "axes.edgecolor": FAINT,
+    "axes.linewidth": 0.8,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "grid.color": GRID,
+    "grid.linewidth": 0.6,
+    "xtick.labelsize": 8.5,
+    "ytick.labelsize": 8.5,
+    "legend.frameon": False,
+    "legend.fontsize": 8.5,
+    "savefig.facecolor": PAPER,
+    "svg.fonttype": "path",
+    "svg.hashsalt": "raycert",
+}
+
+
+@dataclass(frozen=True)
+class Look:
+    """A colour whose grey differs from its neighbours', a mark, and a dash for lines."""
+
+    color: str
+    mark: str
+    dash: Any = "-"
+
+
+LOOKS: dict[str, Look] = {
+    "exact": Look("#000000", "D"),
+    "float64": Look("#0b5fa5", "o"),
+    "float32": Look("#4a90c4", "v", (0, (1, 1))),
+    "longdouble": Look("#2a7f62", "^", (0, (5, 1))),
+    "double-double": Look("#145a3e", "s", (0, (4, 1, 1, 1))),
+    "mpmath": Look("#b5651d", "s", (0, (3, 1))),
+    "interval": Look("#7a3b0c", "p", (0, (3, 1, 1, 1))),
+    "symbolic": Look("#8c1c5a", "h", (0, (3, 1, 1, 1, 1, 1))),
+    "mesh": Look("#8a8a8a", "o", (0, (2, 1))),
+    "client": Look("#c21f1f", "8", (0, (6, 2))),
+}
+"""By family of methods."""
+
+SERIES: tuple[Look, ...] = (
+    Look("#000000", "D", "-"),
+    Look("#0b5fa5", "o", (0, (6, 1.5))),
+    Look("#c2571a", "s", (0, (2, 1))),
+    Look("#2a7f62", "^", (0, (6, 1, 1, 1))),
+    Look("#8c1c5a", "v", (0, (1, 1))),
+    Look("#5aa0d8", "P", (0, (4, 1, 1, 1, 1, 1))),
+    Look("#d89a2b", "X", (0, (3, 2))),
+    Look("#6b6b6b", "p", (0, (1, 2))),
+    Look("#7bbf9a", "<", (0, (8, 2, 2, 2))),
+    Look("#b87aa5", ">", (0, (2, 2, 6, 2))),
+)
+"""For lines of one plot, in turn: told apart by dash and mark alone."""
+
+
+@contextmanager
+def styled() -> Iterator[None]:
+    """Draw in the style, whatever the user's own settings are."""
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(RC)
+        yield
+
+
+def figure(width: float, height: float) -> Figure:
+    """Return an empty figure, in inches, with a canvas that measures text. Within `styled`."""
+    drawn = Figure(figsize=(width, height), dpi=DPI, facecolor=PAPER)
+    FigureCanvasAgg(drawn)
+    return drawn
+
+
+def save(drawn: Figure, folder: Path, name: str) -> list[Path]:
+    """Write a figure as SVG and PNG and return both paths. Within `styled`."""
+    svg, png = folder / f"{name}.svg", folder / f"{name}.png"
+    drawn.savefig(svg, metadata={"Date": None, "Creator": "raycert"})
+    drawn.savefig(png, metadata={"Software": "raycert"}, dpi=DPI)
+    return [svg, png]
+
+
+def decades(axis: Any) -> None:
+    """Label an axis of powers of ten plainly: 1, 10, 1e3, 1e-6."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    axis.set_major_locator(LogLocator(base=10, numticks=9))
+    axis.set_major_formatter(FuncFormatter(lambda x, _: plain(x)))
+    axis.set_minor_formatter(NullFormatter())
+
+
+def plain(x: float) -> str:
+    """Return a power of ten in few characters."""
+    if 0.01 <= x < 1000:
+        return f"{x:g}"
+    mantissa, _, power = f"{x:.0e}".partition("e")
+    return f"{mantissa}e{int(power)}"
