@@ -107,6 +107,7 @@ def certificate(
         "not_tested": {"solids": list(left.solids), "rows": left.rows},
         **_results(asked, hello, grades),
         "expectations": expectations,
+        "standing": {"stress": None, "bench": None},
         "reproduce": asked.repeat(*asked.fresh, *asked.selection),
     }
 

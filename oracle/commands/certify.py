@@ -13,6 +13,7 @@ from oracle.commands.reporting import write_reports
 from oracle.commands.targeting import TARGETS, aim, limits, limits_options, spelled, stop
 
 if TYPE_CHECKING:
+    from oracle.client.dialogue import Target
     from oracle.expectations import Expectations
     from oracle.run import Plan, Result
 
@@ -82,6 +83,8 @@ input; 3 the target could not be run or nothing was tested.
 @click.option("--html", type=FILE, help="Write the certificate as a page with pictures.")
 @click.option("--markdown", type=FILE, help="Write a summary for a CI job.")
 @click.option("--junit", type=FILE, help="Write JUnit XML.")
+@click.option("--stress", is_flag=True, help="Set its error against stiffness too (a minute).")
+@click.option("--bench", is_flag=True, help="Set its error against run time too.")
 @limits_options
 def certify(target: tuple[str, ...], **options: Any) -> None:
     """Grade TARGET on the golden cases, print the verdict, write the certificate.
@@ -102,6 +105,7 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     result = _run(_plan(target, options))
     known = result.matched(expected).as_json(str(options["expect"])) if expected else None
     form = result.form(spelled(target), known)
+    form["standing"] = _standing(result.prepared.hello.name, aim(target), options)
     if options["record"]:
         _write(options["record"], _recorded(result, expected or Expectations()))
     _publish(form, options)
@@ -173,6 +177,22 @@ def _run(plan: Plan) -> Result:
         raise click.UsageError(f"{error}; see: raycert list") from None
     except BadCorpus as error:
         raise click.UsageError(str(error)) from None
+
+
+def _standing(name: str, target: Target, options: dict[str, Any]) -> dict[str, Any]:
+    """Measure where the target sits, as far as that is asked."""
+    from oracle.client.dialogue import Unusable
+    from oracle.commands.progress import counting
+    from oracle.standing import in_time, under_stress
+
+    standing: dict[str, Any] = {"stress": None, "bench": None}
+    for option, measure in (("stress", under_stress), ("bench", in_time)):
+        if options[option]:
+            try:
+                standing[option] = measure(name, target, counting)
+            except Unusable as error:
+                click.echo(f"raycert: --{option}: {error}", err=True)
+    return standing
 
 
 def _publish(form: dict[str, Any], options: dict[str, Any]) -> None:

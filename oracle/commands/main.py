@@ -27,6 +27,7 @@ VERBS: dict[str, tuple[str, str]] = {
     "bench": ("oracle.commands.bench:bench", "Set error against run time, on the same rays."),
     "render": ("oracle.commands.render:render", "Render a scene: depth, normals, error."),
     "plan": ("oracle.commands.plan:plan", "What a scene lets the tracer leave out, and why."),
+    "speed": ("oracle.commands.speed:speed", "What answers cost beside other ways, as ratios."),
     "stress": ("oracle.commands.stress:stress", "Set error against how stiff the problem is."),
     "serve": ("oracle.commands.serve:serve", "Answer the line protocol: oracle or reference."),
 }

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 from typing import Any
 
@@ -101,6 +102,13 @@ def save(drawn: Figure, folder: Path, name: str) -> list[Path]:
     drawn.savefig(svg, metadata={"Date": None, "Creator": "raycert"})
     drawn.savefig(png, metadata={"Software": "raycert"}, dpi=DPI)
     return [svg, png]
+
+
+def as_svg(drawn: Figure) -> str:
+    """Return a figure as SVG text. Within `styled`."""
+    text = StringIO()
+    drawn.savefig(text, format="svg", metadata={"Date": None, "Creator": "raycert"})
+    return text.getvalue()
 
 
 def decades(axis: Any) -> None:

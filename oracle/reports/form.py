@@ -11,6 +11,7 @@ FIELDS: dict[str, type | tuple[type, ...]] = {
     "granted": bool,
     "passed": bool,
     "accepted": bool,
+    "standing": dict,
     "reasons": list,
     "asked": dict,
     "selection": list,

@@ -28,6 +28,7 @@ from oracle.reports.reading import (
     verdict,
     windows,
 )
+from oracle.reports.standing import standing
 from oracle.reports.text import clean, count, intervals, number
 
 Json = dict[str, Any]
@@ -59,6 +60,7 @@ def page(certificate: Json) -> str:
         listed=_listed(certificate),
         not_decisive=_not_decisive(certificate),
         made=_made(certificate),
+        standing=standing(certificate),
     )
 
 
