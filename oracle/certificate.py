@@ -115,7 +115,6 @@ def certificate(
 def _results(asked: Asked, hello: Hello, grades: Sequence[Grade]) -> Json:
     """Return what the answers came to."""
     groups = by_solid(grades)
-
     return {
         "not_decisive": _not_decisive(grades),
         "solids": {group.name: _solid(group) for group in groups},
