@@ -94,8 +94,7 @@ def certificate(
         "passed": passed,
         "accepted": _accepted(expectations, ran, grades),
         "reasons": list(verdict.reasons),
-        "asked": {"level": asked.level, "convention": asked.convention},
-        "selection": list(asked.selection),
+        **_question(asked),
         "shard": shard,
         "subject": {"command": list(asked.command), **asdict(hello)},
         "corpus": _corpus(corpus),
@@ -109,6 +108,14 @@ def certificate(
         "expectations": expectations,
         "standing": {"stress": None, "bench": None},
         "reproduce": asked.repeat(*asked.fresh, *asked.selection),
+    }
+
+
+def _question(asked: Asked) -> Json:
+    """Return what was asked, and of which part of the corpus."""
+    return {
+        "asked": {"level": asked.level, "convention": asked.convention},
+        "selection": list(asked.selection),
     }
 
 
