@@ -29,6 +29,7 @@ VERBS: dict[str, tuple[str, str]] = {
     "plan": ("oracle.commands.plan:plan", "What a scene lets the tracer leave out, and why."),
     "speed": ("oracle.commands.speed:speed", "What answers cost beside other ways, as ratios."),
     "stress": ("oracle.commands.stress:stress", "Set error against how stiff the problem is."),
+    "hunt": ("oracle.commands.hunt:hunt", "Search for failing cases and make them simple."),
     "serve": ("oracle.commands.serve:serve", "Answer the line protocol: oracle or reference."),
 }
 

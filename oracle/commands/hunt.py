@@ -1,0 +1,253 @@
+"""`raycert hunt`: search for cases that an implementation gets wrong, and make them simple."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from oracle.commands.output import check_writable
+from oracle.commands.targeting import TARGETS, aim, limits, limits_options, spelled, stop
+
+if TYPE_CHECKING:
+    from oracle.client.dialogue import Target
+    from oracle.hunt.executors import Executor
+    from oracle.hunt.search import Finding, Hunt
+    from oracle.hunt.unit import Job
+
+LEVEL_NAMES = ("sound", "stable", "faithful", "exact")
+FOLDER = click.Path(file_okay=False, path_type=Path)
+SECONDS = 60.0
+
+EPILOG = f"""{TARGETS}
+\b
+How it searches: a directed search takes hard cases, and moves them along the
+grid of the numbers, toward double roots, rims and coincident faces, far away,
+thin, parallel, into Booleans; Hypothesis draws others, and steers toward large
+errors. A failure counts only where the case decides the level, and only if it
+comes again. It is then made simple: fewer parts, axes along coordinates, small
+whole numbers; failures with the same cause count once.
+
+\b
+Examples:
+  raycert hunt my_tracer:intersect                 a minute, level stable
+  raycert hunt --time 600 --workers 4 -- ./my_tracer
+  raycert hunt ./tracer.so --cases 20000 --seed 7  the same again finds the same
+  raycert certify --golden hunted --level stable my_tracer:intersect
+                                                   replay what was found
+  dask scheduler & dask worker HOST:8786 --nthreads 1 &
+  raycert hunt my_tracer:intersect --time 3600 --scheduler tcp://HOST:8786
+
+\b
+In --out: golden rows with a manifest, for certify --golden and explain; and
+hunt.json, with the answers and what each case was before it was made simple.
+Ctrl-C ends the hunt and keeps what was found.
+
+\b
+Exit status: 0 nothing was found, 1 something was; 2 bad usage or input; 3 the
+target could not be run.
+"""
+
+
+@click.command(epilog=EPILOG)
+@click.argument("target", nargs=-1, required=True, type=click.UNPROCESSED)
+@click.option("--level", type=click.Choice(LEVEL_NAMES), default="stable", show_default=True)
+@click.option("--convention", help="Count touches against this too: closed, regularized, ...")
+@click.option("--range/--no-range", "far", help="Count cases that over- or underflow too.")
+@click.option("--solid", "solids", multiple=True, help="Only these types (repeatable).")
+@click.option("--time", "seconds", type=click.FloatRange(0.1), help="Seconds to hunt (60).")
+@click.option("--cases", type=click.IntRange(1), help="Cases to try, instead of a time.")
+@click.option("--most", type=click.IntRange(1), default=20, show_default=True, help="Causes.")
+@click.option("--seed", type=int, default=0, show_default=True)
+@click.option("--workers", type=click.IntRange(1, 256), default=1, help="Processes here (1).")
+@click.option("--scheduler", help="Hunt on the Dask cluster with this address.")
+@click.option(
+    "--golden-seeds/--no-golden", "seeded", default=True, help="Move golden rows too, or none."
+)
+@click.option("--golden", type=click.Path(exists=True, file_okay=False, path_type=Path))
+@click.option(
+    "--examples", type=FOLDER, help="Keep Hypothesis's examples here, and try them first."
+)
+@click.option("--out", type=FOLDER, default="hunted", show_default=True)
+@limits_options
+def hunt(target: tuple[str, ...], **options: Any) -> None:
+    """Search for cases that TARGET gets wrong, beyond the golden ones, and make them simple."""
+    _check(options)
+    job = _job(aim(target), options)
+    found = _hunt(job, options)
+    report = _written(found, job, target, options)
+    _print(found, report, target, options)
+    raise SystemExit(1 if found.findings else 0)
+
+
+def _check(options: dict[str, Any]) -> None:
+    """Refuse what cannot be done, before the work."""
+    from cases.corpus import MANIFEST, BadCorpus, read_manifest
+    from cases.model import SOLIDS
+    from cases.protocol import BadLine, convention
+
+    if options["cases"] and options["seconds"]:
+        raise click.UsageError("--time and --cases exclude one another")
+    if options["scheduler"] and options["workers"] > 1:
+        raise click.UsageError("--workers and --scheduler exclude one another")
+    if options["golden"] and not options["seeded"]:
+        raise click.UsageError("--golden and --no-golden exclude one another")
+    if unknown := [name for name in options["solids"] if name not in SOLIDS]:
+        known = ", ".join(SOLIDS)
+        raise click.BadParameter(f"{', '.join(unknown)}; known: {known}", param_hint="--solid")
+    try:
+        convention(options["convention"] or "closed")
+    except BadLine as error:
+        raise click.BadParameter(str(error), param_hint="--convention") from None
+    check_writable(options["out"], "--out")
+    read = [("--golden", options["golden"])] if options["golden"] else []
+    read += [("--out", options["out"])] if (options["out"] / MANIFEST).exists() else []
+    for hint, folder in read:
+        try:
+            read_manifest(folder)
+        except BadCorpus as error:
+            raise click.BadParameter(str(error), param_hint=hint) from None
+
+
+def _job(target: Target, options: dict[str, Any]) -> Job:
+    from cases.corpus import GOLDEN
+    from cases.model import SOLIDS
+    from oracle.hunt.look import Asked
+    from oracle.hunt.unit import Job
+
+    try:
+        import hypothesis  # noqa: F401
+    except ImportError:
+        stop('hunt needs Hypothesis: pip install "raycert[hunt]"')
+    return Job(
+        target,
+        limits(options),
+        Asked(options["level"], options["convention"], options["far"]),
+        options["seed"],
+        options["solids"] or tuple(SOLIDS),
+        (options["golden"] or GOLDEN) if options["seeded"] else None,
+        options["examples"],
+    )
+
+
+def _hunt(job: Job, options: dict[str, Any]) -> Hunt:
+    from oracle.client.dialogue import Unusable
+    from oracle.hunt.executors import Lost
+    from oracle.hunt.search import Budget
+    from oracle.hunt.search import hunt as run
+
+    seconds = None if options["cases"] else options["seconds"] or SECONDS
+    budget = Budget(options["cases"], seconds, options["most"])
+    try:
+        with _watched(budget) as on_progress:
+            return run(job, budget, _executor(job, options), on_progress)
+    except (Unusable, Lost) as error:
+        stop(str(error))
+
+
+def _executor(job: Job, options: dict[str, Any]) -> Executor:
+    from functools import partial
+
+    from oracle.hunt.executors import Here, Processes
+    from oracle.hunt.unit import work
+
+    if options["scheduler"]:
+        from oracle.hunt.cluster import Cluster
+
+        return Cluster(partial(work, job), options["scheduler"])
+    if options["workers"] > 1:
+        return Processes(partial(work, job), options["workers"])
+    return Here(partial(work, job))
+
+
+@contextmanager
+def _watched(budget: Any) -> Iterator[Callable[[Hunt], None]]:
+    """Show on a terminal how far the hunt is: cases, failures, the worst k so far."""
+    if not sys.stderr.isatty():
+        yield lambda _: None
+        return
+    from rich.console import Console
+    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = BarColumn(), TimeElapsedColumn(), TextColumn("{task.description}")
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("starting", total=budget.cases or budget.seconds)
+
+        def show(found: Hunt) -> None:
+            done = found.tried if budget.cases else found.seconds
+            bar.update(task, completed=done, description=status(found))
+
+        yield show
+
+
+def status(found: Hunt) -> str:
+    """Return how a hunt stands, in a line."""
+    causes = len(found.findings)
+    plural = "" if causes == 1 else "s"
+    return f"{found.tried} cases, {causes} cause{plural} of failure, worst k {worst(found)}"
+
+
+def worst(found: Hunt) -> str:
+    """Return the worst k, for people."""
+    return f"{found.worst.k:g}" if found.worst.scene else "<= 1"
+
+
+def _written(
+    found: Hunt, job: Job, target: tuple[str, ...], options: dict[str, Any]
+) -> dict[str, Finding]:
+    """Write the findings, and return them by their ids."""
+    from oracle.golden import Contradiction
+    from oracle.hunt import keep
+
+    findings = keep.named(found.findings.values(), job.seed)
+    names = ("level", "convention", "far", "solids", "cases", "seconds", "seed", "seeded")
+    asked = {"target": list(spelled(target)), **{name: options[name] for name in names}}
+    try:
+        rows = keep.rows(findings, found.looker) if findings else []
+    except Contradiction as error:
+        raise click.ClickException(
+            f"the oracle is in doubt, nothing was written: {error}"
+        ) from None
+    report = keep.form(found, findings, asked)
+    if findings or (options["out"] / keep.REPORT).exists():
+        keep.write(options["out"], job.seed, rows, found.looker.hello.format, report)
+    elif not any(options["out"].iterdir()):
+        options["out"].rmdir()
+    return findings
+
+
+def _print(
+    found: Hunt, findings: dict[str, Finding], target: tuple[str, ...], options: dict[str, Any]
+) -> None:
+    from oracle.golden import show
+    from oracle.hunt.keep import answer_line, case_line
+    from oracle.trace import trace
+
+    for id, finding in findings.items():
+        click.echo(f"{id}  {finding.fault.level} fails: {finding.cause}")
+        click.echo(f"  case     {case_line(finding.scene)}")
+        for scene in finding.before:
+            click.echo(f"  after    {case_line(scene)}")
+        click.echo(f"  answer   {answer_line(finding.outcome)}")
+        click.echo(f"  exact    {show(trace(*finding.scene).intervals)}")
+        click.echo(f"  because  {finding.fault.reason}")
+        if not finding.repeats:
+            click.echo("  It did not come again in a new process, so no row was written.")
+    click.echo(f"{status(found)}, {found.seconds:.0f} s, seed {options['seed']}" + _end(found))
+    if any(finding.repeats for finding in findings.values()):
+        words = shlex.join(spelled(target))
+        click.echo(
+            f"replay: raycert certify --golden {shlex.quote(str(options['out']))} "
+            f"--level {options['level']} {words}"
+        )
+
+
+def _end(found: Hunt) -> str:
+    """Return how a hunt ended, where that is not as it was asked to."""
+    ends = {"budget": "", "most": "; ended at --most causes", "interrupted": "; interrupted"}
+    return ends.get(found.ended, f"; ended early: {found.ended}")

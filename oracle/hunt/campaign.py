@@ -1,0 +1,137 @@
+"""The hunt tried on every planted fault of the zoo, with the golden rows withheld.
+
+    python -m oracle.hunt.campaign                     every fault, a minute each at most
+    python -m oracle.hunt.campaign no-clip diameter    these
+    python -m oracle.hunt.campaign --time 20 --json campaign.json
+
+A fault that is granted `stable` shows in no answer that the level can refuse: it is hunted for its
+convention, or in the range tier. A case counts only if the tracer that the fault was planted in has
+it right. It is small if none of its numbers has more than 12 bits.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from math import frexp
+from pathlib import Path
+
+import click
+
+from cases.protocol import Reply
+from oracle.client.inprocess import InProcess
+from oracle.hunt.executors import Here
+from oracle.hunt.keep import case
+from oracle.hunt.look import Asked, Looker
+from oracle.hunt.scene import Scene, numbers
+from oracle.hunt.search import Budget, Finding, hunt
+from oracle.hunt.served import spec
+from oracle.hunt.simple import cost
+from oracle.hunt.unit import Job, work
+from oracle.zoo.catalog import BY_NAME, FAULTS
+from oracle.zoo.fault import Fault
+from oracle.zoo.tracer import BASE
+
+SMALL = 12
+UNIT = 400
+"""Cases of a unit: failures are taken up after each."""
+
+
+@dataclass(frozen=True, slots=True)
+class Trial:
+    """What a hunt for one fault came to."""
+
+    fault: Fault
+    finding: Finding | None
+    tried: int
+    seconds: float
+
+    @property
+    def is_small(self) -> bool:
+        """Tell whether the case found has short numbers only."""
+        return self.finding is not None and longest(self.finding.scene) <= SMALL
+
+
+def longest(scene: Scene) -> int:
+    """Return the most significant bits that a number of a scene has."""
+    return max((_bits(x) for x in numbers(scene)), default=0)
+
+
+def _bits(x: float) -> int:
+    top = int(frexp(x)[0] * 2**53)
+    return abs(top).bit_length() - ((top & -top).bit_length() - 1) if top else 0
+
+
+def trial(fault: Fault, budget: Budget, seed: int = 0) -> Trial:
+    """Hunt for one fault until something is found or the budget is used up."""
+    far = fault.home.startswith("range")
+    asked = Asked("stable", "closed" if fault.granted == "stable" and not far else None, far)
+    job = Job(InProcess("callable", spec(fault.name)), asked=asked, seed=seed, golden=None)
+    found = hunt(job, budget, Here(partial(work, job)))
+    theirs = [finding for finding in found.findings.values() if is_theirs(finding, found.looker)]
+    findings = sorted(theirs, key=lambda finding: cost(finding.scene))
+    return Trial(fault, findings[0] if findings else None, found.tried, found.seconds)
+
+
+def is_theirs(finding: Finding, looker: Looker) -> bool:
+    """Tell whether the tracer that the fault was planted in has the case right."""
+    base = Reply("", intervals=tuple(BASE(*finding.scene)))
+    return looker(finding.scene, base).fault is None
+
+
+def trials(faults: Sequence[Fault], budget: Budget, seed: int = 0) -> Iterator[Trial]:
+    """Yield the trial of each fault."""
+    for fault in faults:
+        yield trial(fault, budget, seed)
+
+
+@click.command()
+@click.argument("names", nargs=-1)
+@click.option("--time", "seconds", type=click.FloatRange(min=1), default=60.0, show_default=True)
+@click.option("--seed", type=int, default=0, show_default=True)
+@click.option("--json", "out", type=click.Path(dir_okay=False, path_type=Path))
+def main(names: tuple[str, ...], seconds: float, seed: int, out: Path | None) -> None:
+    """Hunt for the faults of the zoo; exit 0 if nine in ten are found."""
+    faults = [BY_NAME[name] for name in names] or list(FAULTS)
+    done = []
+    for tried in trials(faults, Budget(seconds=seconds, most=1, unit=UNIT), seed):
+        click.echo(line(tried))
+        done.append(tried)
+    found = [tried for tried in done if tried.finding]
+    small = sum(tried.is_small for tried in found)
+    click.echo(f"{len(found)} of {len(done)} found, {small} of them in small numbers")
+    if out:
+        out.write_text(json.dumps([form(tried) for tried in done], indent=1) + "\n")
+    raise SystemExit(0 if 10 * len(found) >= 9 * len(done) else 1)
+
+
+def line(tried: Trial) -> str:
+    """Return a trial as a line of text."""
+    finding = tried.finding
+    head = f"{tried.fault.name:<22} {tried.seconds:5.1f} s {tried.tried:>6} cases"
+    if finding is None:
+        return f"{head}  NOT FOUND"
+    return f"{head}  {longest(finding.scene):>2} bits  {finding.fault.level} {finding.cause}"
+
+
+def form(tried: Trial) -> dict[str, object]:
+    """Return a trial as JSON."""
+    finding = tried.finding
+    found = finding and {
+        "cause": str(finding.cause),
+        "seconds": finding.after,
+        **case(finding.scene),
+    }
+    return {
+        "fault": tried.fault.name,
+        "does": tried.fault.does,
+        "seconds": round(tried.seconds, 1),
+        "tried": tried.tried,
+        "found": found,
+    }
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,226 @@
+"""Is an answer wrong on the level asked? Cheap for the many that are right, exact for all.
+
+What is asked for is decided as `oracle.grade` decides it, on cases that decide the level: the exact
+list first; an answer whose ends are among the two numbers around the exact ones is `stable`; only
+for others are the faces moved.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+from cases.accept import Accept
+from cases.case import Case, Family, Tier
+from cases.lattice import is_lattice
+from cases.model import SOLIDS, TYPE_NAMES, HalfSpace, Leaf, Ray, Sphere, Tree, leaves
+from cases.protocol import Hello, Reply, convention
+from cases.row import GoldenRow
+from oracle.answer import Answer, First, Listed, answer
+from oracle.client.dialogue import Outcome
+from oracle.client.process import Failure
+from oracle.decisive import decisive
+from oracle.faces import touch
+from oracle.golden import golden_row
+from oracle.grade import grade
+from oracle.hunt.scene import Scene, is_usual, types
+from oracle.judge import LEVELS, Judge, Level
+from oracle.moved import LAST_STEP
+from oracle.zoo.matrix import kind
+
+COARSE = (8, 12, 16, 20, *range(28, LAST_STEP, 8), LAST_STEP)
+"""The steps of k = 1, 4, 16, 64, 1024, ...: as near as the search has to know a backward error."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What is a failure: of a level, of a convention on the lattice if one is asked for.
+
+    Cases of the range tier count only with `far`.
+    """
+
+    level: Level = "stable"
+    convention: str | None = None
+    far: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """How an answer fails: the first level that it fails, or `convention`; the kind; in words."""
+
+    level: str
+    kind: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """What came of a look: the fault if there is one, about how large k is (1 where <= 1), ulps."""
+
+    fault: Fault | None = None
+    k: float = 1.0
+    ulps: float = 0.0
+
+
+RIGHT = Seen()
+
+
+@dataclass(frozen=True, slots=True)
+class Looker:
+    """Judges the answers of a target that said this hello, on the types of solid wanted of it."""
+
+    hello: Hello
+    asked: Asked
+    solids: tuple[str, ...] = tuple(SOLIDS)
+
+    def tier(self, scene: Scene) -> Tier:
+        """Return the tier of a scene; the lattice's is only for a convention that is asked for."""
+        if not is_usual(scene, self.hello.format):
+            return "range"
+        on_lattice = self.asked.convention is not None and is_lattice(scene.solid, scene.ray)
+        return "lattice" if on_lattice else "generic"
+
+    def wants(self, scene: Scene) -> bool:
+        """Tell whether a scene is asked: its types are declared and wanted, its numbers usual."""
+        names = {TYPE_NAMES[kind] for kind in types(scene.solid)}
+        if not names <= {*self.solids} & {*self.hello.solids}:
+            return False
+        return self.asked.far or is_usual(scene, self.hello.format)
+
+    def judge(self, scene: Scene) -> Judge:
+        """Return the judge of a scene."""
+        fmt, tolerance = self.hello.format, self.hello.tolerance
+        return Judge(scene.solid, scene.ray, fmt, self.tier(scene), tolerance)
+
+    def __call__(self, scene: Scene, outcome: Outcome) -> Seen:
+        """Return what comes of a look at an answer."""
+        silent = _silence(outcome)
+        if silent:
+            return Seen(silent, inf)
+        assert isinstance(outcome, Reply)
+        said, judge = answer(outcome, self.hello), self.judge(scene)
+        if isinstance(said, Listed) and said.pairs == judge.expected:
+            return RIGHT if self.asked.convention is None else Seen(self._unkept(said, judge))
+        malformed = said.malformed(judge)
+        if malformed:
+            return Seen(Fault("sound", "malformed", malformed), inf)
+        if unkept := self._unkept(said, judge):
+            return Seen(unkept)
+        if said.is_faithful(judge.expected, judge.enclosures) is None:
+            return Seen(self._finer(scene, outcome)) if self.asked.level == "exact" else RIGHT
+        k = coarse_k(said, judge)
+        fault = self._gross(said, judge)
+        if fault is None and LEVELS.index(self.asked.level) > LEVELS.index("stable"):
+            fault = self._finer(scene, outcome)
+        return Seen(fault, k, said.forward_error(judge))
+
+    def _unkept(self, said: Answer, judge: Judge) -> Fault | None:
+        """Return the fault of a touch kept or dropped against the convention asked for."""
+        if (
+            judge.tier != "lattice"
+            or self.asked.convention is None
+            or isinstance(judge.solid, Tree)
+        ):
+            return None
+        touches = [touch(interval, judge.solid, judge.ray) for interval in judge.exact]
+        name = next((name for name in touches if name), None)
+        kept = said.keeps_touch(judge.expected) if name else None
+        if name is None or kept is None or kept == convention(self.asked.convention)[name]:
+            return None
+        how = "kept" if kept else "dropped"
+        return Fault("convention", f"touch {how}", f"a touch ({name}) is {how}")
+
+    def _gross(self, said: Answer, judge: Judge) -> Fault | None:
+        """Return how an answer fails `sound` or `stable`, as far as they are asked."""
+        upto: tuple[Level, ...] = ("sound",) if self.asked.level == "sound" else ("stable", "sound")
+        failed: list[tuple[Level, Accept, str]] = []
+        for level in upto:  # what is stable is sound
+            accept = judge.accept(level)
+            reason = said.fault(accept)
+            if not reason:
+                break
+            failed.append((level, accept, reason))
+        if not failed:
+            return None
+        decides = deciding(judge)
+        for level, accept, reason in reversed(failed):
+            if level in decides:
+                return Fault(level, how(said, accept), reason)
+        return None
+
+    def _finer(self, scene: Scene, outcome: Outcome) -> Fault | None:
+        """Return how an answer fails `faithful` or `exact`, where it is stable."""
+        graded = grade(row(scene, self), outcome, self.hello)
+        for level in LEVELS[: LEVELS.index(self.asked.level) + 1]:
+            if reason := graded.fault(level):
+                pairs, wanted = len(graded.answer or ()), len(graded.row.expected)
+                shape = "missed" if pairs < wanted else "phantom" if pairs > wanted else "wrong end"
+                return Fault(level, shape, reason)
+        return None
+
+    def true_k(self, scene: Scene, outcome: Outcome) -> float:
+        """Return the strict backward error of an answer; 0 where the scene does not decide."""
+        if not isinstance(outcome, Reply) or _silence(outcome):
+            return inf
+        judge = self.judge(scene)
+        if "stable" not in deciding(judge):
+            return 0.0
+        return answer(outcome, self.hello).backward_error(judge, "strict")
+
+
+def row(scene: Scene, looker: Looker) -> GoldenRow:
+    """Return the golden row of a scene, without witnesses."""
+    case = Case("case", "A case of a hunt.", scene.solid, scene.ray, looker.tier(scene))
+    return golden_row(Family("hunt", "", lambda _: ()), case, looker.hello.format)
+
+
+def deciding(judge: Judge) -> tuple[Level, ...]:
+    """Return the levels that a case decides; a coarse tolerance takes some away.
+
+    So does a start on a face among numbers that are all 0, where no face moves: to keep or drop
+    what is touched there is a convention.
+    """
+    coarse = judge.tolerance and not judge.scene.tolerance_is_fine()
+    if coarse or any(_is_pinned(leaf, judge.ray) for _, leaf in leaves(judge.solid)):
+        return ("faithful", "exact")
+    return decisive(judge)
+
+
+def _is_pinned(leaf: Leaf, ray: Ray) -> bool:
+    """Tell whether a leaf has no size where the ray starts on it."""
+    match leaf:
+        case HalfSpace(point, _):
+            return not any((*point, *ray.origin))
+        case Sphere(center, radius):
+            return not any((*center, radius, *ray.origin))
+    return False
+
+
+def coarse_k(said: Answer, judge: Judge) -> float:
+    """Return k rounded up to one of a few: what most answers cost is one comparison."""
+    if not isinstance(said, Listed):
+        return max(said.backward_error(judge, "strict"), 1.0)
+    pairs = said.pairs
+    found = next((step for step in COARSE if judge.accepts(pairs, step, "strict")), None)
+    return inf if found is None else 2.0 ** (found // 2 - 4)
+
+
+def how(said: Answer, accept: Accept) -> str:
+    """Return the kind of a gross fault."""
+    if isinstance(said, Listed):
+        return kind(accept.outer, accept.inner, said.pairs)
+    if isinstance(said, First):
+        if said.t is None:
+            return "missed"
+        return "wrong end" if accept.outer else "phantom"
+    return "phantom" if accept.inner == () else "missed"
+
+
+def _silence(outcome: Outcome) -> Fault | None:
+    """Return the fault of an outcome that is no answer."""
+    if isinstance(outcome, Failure):
+        return Fault("sound", outcome.kind, outcome.detail)
+    for name in ("error", "unsupported"):
+        if (text := getattr(outcome, name)) is not None:
+            return Fault("sound", name, text)
+    return None

@@ -1,0 +1,267 @@
+"""The whole hunt: units out, failures in, each confirmed, shrunk, told apart and kept.
+
+Units are done anywhere; failures are taken up here, in the order of the units' numbers. So with a
+budget of cases the same seed finds the same, whoever did the units. With a budget of time it finds
+the same up to where it got. A failure counts only if it comes again in a new process, alone or
+after what was asked before it.
+"""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from math import inf
+
+from oracle.client.dialogue import Outcome, Unusable
+from oracle.hunt.cause import UNREPEATED, Cause, cause
+from oracle.hunt.executors import Executor, Lost
+from oracle.hunt.ledger import Ledger
+from oracle.hunt.look import Fault, Looker
+from oracle.hunt.scene import Scene
+from oracle.hunt.session import Clock, Session, TimeUp
+from oracle.hunt.shrink import Shrinker
+from oracle.hunt.simple import cost
+from oracle.hunt.unit import CASES, EACH, Done, Failing, Job, Unit, Worst, coarse
+
+LINGER = 2.0
+"""Seconds after the last for units to give what they have."""
+MOST = 100
+"""Findings of a hunt, if nobody says otherwise."""
+POLL = 0.25
+
+
+@dataclass(frozen=True, slots=True)
+class Budget:
+    """When to end: cases, or seconds; or once so many causes are found."""
+
+    cases: int | None = None
+    seconds: float | None = None
+    most: int = MOST
+    unit: int = CASES
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """A cause of failures: its simplest case, how it fails, and what has to be asked before it.
+
+    `first` is the case as it was found. `repeats` is False for a failure that never came again.
+    """
+
+    cause: Cause
+    scene: Scene
+    fault: Fault
+    outcome: Outcome
+    first: Scene
+    k: float
+    before: tuple[Scene, ...] = ()
+    repeats: bool = True
+    after: float = 0.0
+
+
+@dataclass(slots=True)
+class Hunt:
+    """What a hunt has found so far. `ended` says how it ended: budget, most, interrupted."""
+
+    looker: Looker
+    tried: int = 0
+    worst: Worst = field(default_factory=Worst)
+    findings: dict[Cause, Finding] = field(default_factory=dict)
+    seconds: float = 0.0
+    ended: str = "budget"
+
+
+Look = Callable[[Hunt], None]
+
+
+def hunt(job: Job, budget: Budget, executor: Executor, on_progress: Look | None = None) -> Hunt:
+    """Hunt until the budget is used up, or the person interrupts.
+
+    Raises `Unusable` if the target cannot be run from the beginning; and `Unusable` and `Lost`
+    later, if nothing was found by then: what was found is returned, and `ended` says the rest.
+    """
+    try:
+        course = _Course(job, budget, executor, on_progress or (lambda _: None))
+    except BaseException:
+        executor.close()
+        raise
+    try:
+        course.run()
+    except TimeUp:
+        pass
+    except KeyboardInterrupt:
+        course.found.ended = "interrupted"
+    except (Unusable, Lost) as error:
+        if not course.found.findings:
+            raise
+        course.found.ended = str(error)
+    finally:
+        executor.close()
+        course.close()
+    return course.found
+
+
+class _Course:
+    """A hunt under way."""
+
+    def __init__(self, job: Job, budget: Budget, executor: Executor, on_progress: Look) -> None:
+        self.ledger = Ledger()
+        self._budget, self._executor, self._on_progress = budget, executor, on_progress
+        self._began = time.monotonic()
+        self._clock = Clock.of(budget.seconds)
+        self._out = 0
+        self._catch = Catch(job, self._clock, self._began)
+        self.found = self._catch.found
+
+    def run(self) -> None:
+        """Go on until the budget is used up."""
+        units = self._units()
+        waiting = next(units, None)
+        while waiting or self._out:
+            while waiting and self._out < self._executor.places:
+                self._executor.submit(replace(waiting, seconds=self._left()))
+                self._out += 1
+                waiting = next(units, None)
+            self._collect()
+            if self._take(self.ledger.in_order()) or time.monotonic() > self._clock.end + LINGER:
+                break
+            if time.monotonic() > self._clock.end:
+                waiting = None
+        self._take(self.ledger.rest())
+
+    def _units(self) -> Iterator[Unit]:
+        number, left = 0, self._budget.cases
+        while left is None or left > 0:
+            size = self._budget.unit if left is None else min(left, self._budget.unit)
+            yield Unit(number, size)
+            number, left = number + 1, None if left is None else left - size
+
+    def _left(self) -> float | None:
+        return None if self._clock.end == inf else max(self._clock.end - time.monotonic(), 0.01)
+
+    def _collect(self) -> None:
+        for result in self._executor.finished(POLL):
+            self._out -= self.ledger.add(result)
+        self._tell()
+
+    def _take(self, results: Iterator[Done]) -> bool:
+        """Take up results in turn; return whether enough was found."""
+        for result in results:
+            for _ in self._catch.take(result):
+                self._tell()
+                if len(self.found.findings) >= self._budget.most:
+                    self.found.ended = "most"
+                    return True
+        return False
+
+    def _tell(self) -> None:
+        self.found.tried = self.ledger.tried
+        self.found.seconds = time.monotonic() - self._began
+        self._on_progress(self.found)
+
+    def close(self) -> None:
+        """Leave no process behind."""
+        self._tell()
+        self._catch.session.close()
+
+
+class Catch:
+    """Makes findings of failures."""
+
+    def __init__(self, job: Job, clock: Clock, began: float) -> None:
+        """Start the target here, where failures are confirmed and shrunk. Raises `Unusable`."""
+        self.session = Session(job.target, job.limits)
+        self.looker = Looker(self.session.hello, job.asked, job.solids)
+        self.found = Hunt(self.looker)
+        self._clock, self._began = clock, began
+        self._counts: Counter[tuple[str, str, str]] = Counter()
+
+    def take(self, result: Done) -> Iterator[None]:
+        """Take up the failures of a unit, one a step: of each coarse cause only the first few."""
+        if result.worst.k > self.found.worst.k:
+            self.found.worst = result.worst
+        for failing in result.failures:
+            self._counts[coarse(failing)] += 1
+            if self._counts[coarse(failing)] <= EACH:
+                self._add(self._confirmed(failing))
+            yield
+
+    def _add(self, finding: Finding | None) -> None:
+        """Keep a finding, unless a simpler one has the same cause."""
+        if finding is None:
+            return
+        old = self.found.findings.get(finding.cause)
+        if old is None or cost(finding.scene) < cost(old.scene):
+            self.found.findings[finding.cause] = finding
+
+    def _confirmed(self, failing: Failing) -> Finding | None:
+        """Return the finding that a failure makes: alone, after some others, or never again."""
+        lost = any(known.kind == UNREPEATED for known in self.found.findings)
+        for length in range(1 if lost else len(failing.before) + 1):
+            before = failing.before[len(failing.before) - length :]
+            *_, outcome = self.session.fresh([*before, failing.scene])
+            seen = self.looker(failing.scene, outcome)
+            if seen.fault:
+                return self._shrunk(failing, seen.fault, before)
+        return self._unrepeated(failing, outcome)
+
+    def _shrunk(self, failing: Failing, fault: Fault, before: tuple[Scene, ...]) -> Finding | None:
+        """Return the finding of a failure that was confirmed; None if its cause is known."""
+
+        def fails(scenes: Sequence[Scene]) -> list[bool]:
+            if time.monotonic() > self._clock.end + LINGER:
+                raise TimeUp
+            asked = [s for scene in scenes for s in (*before, scene)]
+            outcomes = self.session.ask(asked)[len(before) :: len(before) + 1]
+            return [self._same(s, o, fault) for s, o in zip(scenes, outcomes, strict=True)]
+
+        def is_known(scene: Scene) -> bool:
+            old = self.found.findings.get(cause(scene, fault))
+            return old is not None and cost(old.scene) <= cost(scene)
+
+        shrinker = Shrinker(failing.scene, fails, self.looker.hello.format)
+        try:
+            shrinker.run(is_known)
+        except (TimeUp, KeyboardInterrupt):
+            self._add(self._finished(shrinker.best, failing, fault, before))
+            raise
+        if is_known(shrinker.best):
+            return None
+        return self._finished(shrinker.best, failing, fault, before)
+
+    def _finished(
+        self, best: Scene, failing: Failing, fault: Fault, before: tuple[Scene, ...]
+    ) -> Finding:
+        """Return the finding, its simplest case asked once more of a new process."""
+        for scene in (best, failing.scene):
+            *_, outcome = self.session.fresh([*before, scene])
+            seen = self.looker(scene, outcome)
+            if seen.fault:
+                return self._finding(failing, scene, seen.fault, before, outcome)
+        return self._unrepeated(failing, outcome)
+
+    def _unrepeated(self, failing: Failing, outcome: Outcome) -> Finding:
+        fault = replace(failing.fault, kind=UNREPEATED)
+        return self._finding(failing, failing.scene, fault, (), outcome, repeats=False)
+
+    def _same(self, scene: Scene, outcome: Outcome, fault: Fault) -> bool:
+        """Tell whether a case fails in the same way, on the same level or a weaker one."""
+        seen = self.looker(scene, outcome).fault if self.looker.wants(scene) else None
+        if seen is None or seen.kind != fault.kind:
+            return False
+        return seen.level == fault.level or (seen.level, fault.level) == ("sound", "stable")
+
+    def _finding(
+        self,
+        failing: Failing,
+        scene: Scene,
+        fault: Fault,
+        before: tuple[Scene, ...],
+        outcome: Outcome,
+        repeats: bool = True,
+    ) -> Finding:
+        k = self.looker.true_k(scene, outcome)
+        after = time.monotonic() - self._began
+        key = cause(scene, fault)
+        return Finding(key, scene, fault, outcome, failing.scene, k, before, repeats, after)
