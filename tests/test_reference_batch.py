@@ -64,7 +64,7 @@ def test_every_golden_row(precision: str, switches: Switches) -> None:
         assert_same(solid, those, switches)
 
 
-@pytest.mark.parametrize("switches", WAYS, ids=str)
+@pytest.mark.parametrize("switches", WAYS, ids=range(len(WAYS)))
 @given(ensembles(3))
 @settings(max_examples=30)
 def test_drawn_solids(switches: Switches, drawn: tuple[tuple[Solid, ...], Ray]) -> None:
