@@ -36,10 +36,13 @@ class Asked:
     """The options that narrow the corpus; empty for all of it."""
     fresh: tuple[str, ...] = ()
     """The options that draw rows beside it."""
+    golden: tuple[str, ...] = ()
+    """The options that put another corpus in its place."""
 
     def repeat(self, *extra: str) -> str:
         """Return the command line that asks again."""
-        options = ["--level", self.level, "--convention", self.convention, *extra]
+        asked = ("--level", self.level, "--convention", self.convention)
+        options = [*asked, *self.golden, *extra]
         return shlex.join(["raycert", "certify", *options, *self.command])
 
     def repeat_row(self, id: str) -> str:

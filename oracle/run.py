@@ -135,7 +135,8 @@ class Result:
         plan, prepared = self.prepared.plan, self.prepared
         shard, fresh = plan.selection.shard, plan.fresh
         narrowed, drawn = plan.selection.options(), fresh.options() if fresh else ()
-        asked = Asked(plan.level, plan.convention, tuple(command), narrowed, drawn)
+        other = () if plan.golden == GOLDEN else ("--golden", str(plan.golden))
+        asked = Asked(plan.level, plan.convention, tuple(command), narrowed, drawn, other)
         return certificate(
             asked,
             prepared.hello,

@@ -1,6 +1,7 @@
 """The pipeline: what it asks, what it keeps when it is cut short, what it refuses to begin."""
 
 import os
+import shutil
 import signal
 import sys
 from contextlib import contextmanager
@@ -12,7 +13,7 @@ from typing import Any
 import pytest
 
 import oracle
-from cases.corpus import MANIFEST, manifest, read_corpus
+from cases.corpus import GOLDEN, MANIFEST, manifest, read_corpus
 from oracle.certify import by_family
 from oracle.client.harness import Limits, Unusable
 from oracle.expectations import Expectation, Expectations
@@ -209,3 +210,11 @@ def test_an_empty_corpus_is_blamed_on_the_corpus(
     (tmp_path / MANIFEST).write_bytes(manifest({}))
     with pytest.raises(Unsuitable, match="no rows in binary64"):
         prepare(Plan(GOOD, golden=tmp_path))
+
+
+def test_another_corpus_is_named_in_the_command_that_repeats(tmp_path: Path) -> None:
+    shutil.copytree(GOLDEN, tmp_path / "golden")
+    result = certify(Plan(GOOD, golden=tmp_path / "golden", selection=Selection(families=("rim",))))
+    assert (
+        f"--golden {tmp_path / 'golden'} --family rim" in result.form(("reference",))["reproduce"]
+    )
