@@ -122,7 +122,8 @@ def golden_files(
             for case in family.cases(fmt):
                 rows.append(golden_row(family, case, fmt, witnesses))
                 progress(rows[-1].id)
-            yield f"{precision}/{family.name}.jsonl", encode_rows(rows, fmt)
+            if rows:  # what was found in one format may have none in the other
+                yield f"{precision}/{family.name}.jsonl", encode_rows(rows, fmt)
 
 
 def write(

@@ -11,6 +11,7 @@ import pytest
 
 from cases.case import TIERS, Case, Family
 from cases.corpus import read_corpus
+from cases.families import adopted
 from cases.families.catalog import FAMILIES
 from cases.families.frames import ALIGNED, OBLIQUE, frames_for
 from cases.families.sketch import ALWAYS, MISS, Pairs, between, cylinder, pair, row, touch
@@ -104,7 +105,7 @@ def test_a_family_states_its_reason(family: Family) -> None:
 @by_format
 def test_slugs_are_unique_and_plain(family: Family, fmt: Format) -> None:
     slugs = [case.slug for case in rows(family, fmt)]
-    assert slugs
+    assert slugs or family in adopted.FAMILIES  # what was found in one format is kept in it
     assert len(set(slugs)) == len(slugs)
     assert all(SLUG.fullmatch(slug) for slug in slugs)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from cases.case import Family
 from cases.families import (
+    adopted,
     base_rate,
     case_table,
     csg_closure,
@@ -63,4 +64,5 @@ FAMILIES: tuple[Family, ...] = (
     *csg_stiff.FAMILIES,
     *csg_random.FAMILIES,
     *reports_solids.FAMILIES,
+    *adopted.FAMILIES,
 )

@@ -30,6 +30,8 @@ VERBS: dict[str, tuple[str, str]] = {
     "speed": ("oracle.commands.speed:speed", "What answers cost beside other ways, as ratios."),
     "stress": ("oracle.commands.stress:stress", "Set error against how stiff the problem is."),
     "hunt": ("oracle.commands.hunt:hunt", "Search for failing cases and make them simple."),
+    "map": ("oracle.commands.map:draw_map", "Draw what surrounds a case: exact answers, errors."),
+    "adopt": ("oracle.commands.adopt:adopt", "Keep a found case in the corpus."),
     "serve": ("oracle.commands.serve:serve", "Answer the line protocol: oracle or reference."),
 }
 

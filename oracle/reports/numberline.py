@@ -6,7 +6,7 @@ difference is too small to see. Numbers are fractions until they are pixels.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, floor, frexp, inf, isfinite, log10
@@ -98,20 +98,38 @@ def whole(lists: Lists) -> Axis:
     return Axis((low + high) / 2, 2 * span / Fraction(PLOT))
 
 
+@dataclass(frozen=True, slots=True)
+class Lane:
+    """A line of a drawing: its name, lists each with its kind, what is said where none is seen."""
+
+    name: str
+    lists: tuple[tuple[Pairs, str], ...]
+    silence: str = ""
+
+
 def bars(lists: Lists, axis: Axis, top: float, silence: str) -> Iterator[Element]:
     """Yield the three lines: accepted, exact, answered. `silence` is said where there is no bar."""
-    names = ("accepted", "exact", "answered")
-    for i, name in enumerate(names):
+    yield from lanes(
+        (*known(lists), Lane("answered", ((lists.said or (), "said"),), silence)), axis, top
+    )
+
+
+def known(lists: Lists) -> tuple[Lane, Lane]:
+    """Return the lines of what is accepted and of what is exact."""
+    accepted = Lane("accepted", ((lists.outer, "outer"), (lists.inner, "inner")))
+    return accepted, Lane("exact", ((lists.exact, "exact"),))
+
+
+def lanes(drawn: Iterable[Lane], axis: Axis, top: float) -> Iterator[Element]:
+    """Yield lines, one below the other."""
+    for i, lane in enumerate(drawn):
         y = top + ROW * i
-        yield label(0, y + BAR - 1, name, "name")
+        yield label(0, y + BAR - 1, lane.name, "name")
         yield el("line", x1=GUTTER, x2=WIDTH, y1=y + BAR / 2, y2=y + BAR / 2, kind="rail")
-    yield from _bar(lists.outer, axis, top, "outer")
-    yield from _bar(lists.inner, axis, top, "inner")
-    yield from _bar(lists.exact, axis, top + ROW, "exact")
-    said = list(_bar(lists.said or (), axis, top + 2 * ROW, "said"))
-    yield from said
-    if not said:
-        yield label(GUTTER + 8, top + 2 * ROW + BAR - 1, silence, "name")
+        seen = [bar for pairs, kind in lane.lists for bar in _bar(pairs, axis, y, kind)]
+        yield from seen
+        if not seen and lane.silence:
+            yield label(GUTTER + 8, y + BAR - 1, lane.silence, "name")
 
 
 def _bar(pairs: Pairs, axis: Axis, y: float, kind: str) -> Iterator[Element]:
@@ -199,20 +217,20 @@ def close(lists: Lists, fmt: Format) -> Close | None:
     said = lists.finite(lists.said)
     best: tuple[Fraction, Fraction, Fraction | None] | None = None
     for t, answered in _ends(lists, exact, said):
-        far = Fraction(0) if answered is None else abs(answered - t) / _ulp(t or answered, fmt)
+        far = Fraction(0) if answered is None else abs(answered - t) / ulp(t or answered, fmt)
         if best is None or far > best[0]:
             best = (far, t, answered)
     if best is None:
         return None
     t, answered = best[1:]
-    ulp = _ulp(t or answered or t, fmt)
+    unit = ulp(t or answered or t, fmt)
     origin = Fraction(fmt.nearest(float(t)))
-    off = None if answered is None else (answered - origin) / ulp
+    off = None if answered is None else (answered - origin) / unit
     near = [_nearest(t, lists.finite(pairs)) for pairs in (lists.inner, lists.outer)]
-    reach = max([Fraction(2), *(abs(x - t) / ulp for x in near if x is not None)])
+    reach = max([Fraction(2), *(abs(x - t) / unit for x in near if x is not None)])
     if off is not None and abs(off) < 40 * reach:
         reach = max(reach, abs(off))
-    return Close(Axis(origin, reach * ulp * Fraction(26, 10) / Fraction(PLOT)), origin, ulp, off)
+    return Close(Axis(origin, reach * unit * Fraction(26, 10) / Fraction(PLOT)), origin, unit, off)
 
 
 def _ends(
@@ -240,7 +258,7 @@ def _nearest(t: Fraction, numbers: list[Fraction]) -> Fraction | None:
     return min(numbers, key=lambda x: abs(x - t), default=None)
 
 
-def _ulp(t: Fraction, fmt: Format) -> Fraction:
+def ulp(t: Fraction, fmt: Format) -> Fraction:
     """Return the unit in the last place of the numbers of a format around t."""
     x = abs(float(t))
     if not x:

@@ -1,12 +1,10 @@
 """The certificate as one HTML page that needs nothing else: no network, no script, no font.
 
-The template escapes all text; what clients said is cleaned besides. Only the style sheet and the
-drawings, whose text their library escapes, go in as they are.
+What clients said is cleaned; the template escapes it besides.
 """
 
 from __future__ import annotations
 
-from importlib.resources import files
 from typing import Any
 
 from cases.table import PROBLEM_1, PROBLEM_2
@@ -29,6 +27,7 @@ from oracle.reports.reading import (
     windows,
 )
 from oracle.reports.standing import standing
+from oracle.reports.template import render
 from oracle.reports.text import clean, count, intervals, number
 
 Json = dict[str, Any]
@@ -40,17 +39,11 @@ SHOWN = 20
 
 def page(certificate: Json) -> str:
     """Return the certificate as a page."""
-    from jinja2 import Environment, StrictUndefined
-
-    here = files("oracle.reports")
-    environment = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-    )
-    environment.filters |= {"clean": clean, "count": count, "mark": mark}
-    template = environment.from_string((here / "page.html").read_text("utf-8"))
-    return template.render(
+    return render(
+        "page.html",
+        ("page.css",),
+        {"clean": clean, "count": count, "mark": mark},
         c=certificate,
-        style=(here / "page.css").read_text("utf-8"),
         levels=LEVELS,
         **_verdict(certificate),
         **_matrix(certificate),

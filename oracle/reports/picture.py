@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from math import frexp
 from typing import Any
@@ -33,7 +33,7 @@ def pictures(shown: Json, precision: str) -> list[tuple[str, str]]:
     except Refused:
         return []
     view = scene(solid, ray, lists.finite(lists.exact))
-    axis = whole(lists) if view is None else _axis(view)
+    axis = whole(lists) if view is None else axis_of(view)
     silence = _silence(shown)
     found = [_whole(view, lists, axis, silence)]
     near = close(lists, FORMATS[precision])
@@ -53,18 +53,19 @@ def _silence(shown: Json) -> str:
     return clean(next(iter(shown["faults"].values()), "nothing"), 44)
 
 
-def _axis(view: Scene) -> Axis:
+def axis_of(view: Scene) -> Axis:
     """Return the axis of t under a picture: the ray is its line."""
     return Axis(view.middle, Fraction(2 * view.half / PLOT) / view.speed)
 
 
 def _whole(view: Scene | None, lists: Lists, axis: Axis, silence: str) -> tuple[str, str]:
     top = 4.0 if view is None else TALL + GAP
-    parts = [] if view is None else [*_scene(view, axis), *_guides(lists, axis, top)]
+    ends = lists.finite(lists.exact)
+    parts = [] if view is None else [*drawn(view, axis), *guides(ends, axis, top + ROW)]
     foot = top + 3 * ROW
     if lists.said:
         silence = f"elsewhere, from t = {float(lists.said[0][0]):.6g}"
-    base = _base(axis)
+    base = base_of(axis)
     parts += [*bars(lists, axis, top, silence), *ticks(axis, base, Fraction(1), foot)]
     parts.append(label(0, foot + 16, "t" if not base else "t - c", "name"))
     name = "The intervals" if view is None else view.plane.name
@@ -72,7 +73,7 @@ def _whole(view: Scene | None, lists: Lists, axis: Axis, silence: str) -> tuple[
     return caption, drawing(foot + 20, caption, *parts)
 
 
-def _base(axis: Axis) -> Fraction:
+def base_of(axis: Axis) -> Fraction:
     """Return what is taken off the labels: 0, or a round t near the middle if that is far away."""
     span = axis.unit * PLOT
     if abs(axis.middle) < 5000 * span:
@@ -81,8 +82,11 @@ def _base(axis: Axis) -> Fraction:
     return Fraction(float(round(axis.middle / power) * power))
 
 
-def _scene(view: Scene, axis: Axis) -> Iterator[Element]:
-    """Yield the solid, its leaves' outlines and the ray, in the frame of a picture."""
+def drawn(view: Scene, axis: Axis, still: bool = False) -> Iterator[Element]:
+    """Yield the solid, its leaves' outlines and the ray, in the frame of a picture.
+
+    A `still` ray is its start alone.
+    """
     scale = PLOT / (2 * view.half)
 
     def pixel(x: float, y: float) -> tuple[float, float]:
@@ -100,22 +104,27 @@ def _scene(view: Scene, axis: Axis) -> Iterator[Element]:
     if not outlines:
         yield label(MIDDLE, 20, "the solid is out of the picture", "name", "middle")
     start = axis.x(Fraction(0))
-    height = pixel(0, 0)[1]
-    left = max(start, GUTTER)
-    yield el("line", x1=left, x2=WIDTH - 6, y1=height, y2=height, kind="ray")
-    yield el("path", d=f"M{WIDTH - 9},{height - 4:.1f}l8,4l-8,4Z", kind="tip")
+    height = ray_height(view)
+    if not still:
+        left = max(start, GUTTER)
+        yield el("line", x1=left, x2=WIDTH - 6, y1=height, y2=height, kind="ray")
+        yield el("path", d=f"M{WIDTH - 9},{height - 4:.1f}l8,4l-8,4Z", kind="tip")
     if start >= GUTTER:
         yield el("circle", cx=start, cy=height, r=3.5, kind="start")
     else:
         yield label(GUTTER + 6, height - 6, "\u2190 start", "name")
 
 
-def _guides(lists: Lists, axis: Axis, top: float) -> Iterator[Element]:
+def ray_height(view: Scene) -> float:
+    """Return the pixel at which the ray runs."""
+    return TALL / 2 + view.rise * PLOT / (2 * view.half)
+
+
+def guides(ends: Iterable[Fraction], axis: Axis, foot: float) -> Iterator[Element]:
     """Yield a line from each exact end on the ray down to the intervals."""
-    for t in lists.finite(lists.exact):
+    for t in ends:
         if axis.shows(t):
-            x = axis.x(t)
-            yield el("line", x1=x, x2=x, y1=0, y2=top + ROW, kind="guide")
+            yield el("line", x1=axis.x(t), x2=axis.x(t), y1=0, y2=foot, kind="guide")
 
 
 def _close(lists: Lists, near: Close, silence: str) -> tuple[str, str]:
@@ -123,16 +132,15 @@ def _close(lists: Lists, near: Close, silence: str) -> tuple[str, str]:
     parts = [*bars(lists, near.axis, top, silence), *ticks(near.axis, near.origin, near.ulp, foot)]
     parts.append(label(0, foot + 16, "ulps", "name"))
     if near.off is not None and not near.axis.shows(near.origin + near.off * near.ulp):
-        parts += _pointer(near, top + 2 * ROW)
+        parts.append(pointer(near.off, top + 2 * ROW))
     caption = f"Close to t = {float(near.origin)!r}, in ulps of {float(near.ulp):.2g}"
     return caption, drawing(foot + 20, caption, *parts)
 
 
-def _pointer(near: Close, y: float) -> list[Element]:
-    """Return what points to an answer's end that is not on the drawing."""
-    assert near.off is not None
-    ulps = max(Fraction(-(10**300)), min(near.off, Fraction(10**300)))
-    far = f"{float(ulps):+.2g} ulps".replace("e+", "e")
-    if near.off > 0:
-        return [label(WIDTH - 4, y + 9, f"end at {far} \u2192", "off", "end")]
-    return [label(GUTTER + 4, y + 9, f"\u2190 end at {far}", "off")]
+def pointer(off: Fraction, y: float) -> Element:
+    """Return what points to an answer's end that is not on the drawing, so many ulps away."""
+    ulps = max(Fraction(-(10**300)), min(off, Fraction(10**300)))
+    far = f"{float(ulps):+.3g} ulps".replace("e+", "e")
+    if off > 0:
+        return label(WIDTH - 4, y + 9, f"end at {far} \u2192", "off", "end")
+    return label(GUTTER + 4, y + 9, f"\u2190 end at {far}", "off")

@@ -28,21 +28,40 @@ def planes(leaf: Leaf, along: Vector) -> list[Plane]:
         case HalfSpace():
             return [Plane(square(leaf.normal, along), "The plane of ray and normal")]
     axis = unit(minus(leaf.q, leaf.p))
-    lengthwise = Plane(square(axis, along), "The plane of the ray that runs along the axis")
+    views = lengthwise(leaf, along)
+    common = cross(along, axis)
+    if isinstance(leaf, Slab) or norm(common) < 1e-9:
+        return views
+    distance = dot(leaf.p, unit(common))
+    if abs(distance) <= OFF_AXIS * leaf.radius:
+        return views
+    return [crosswise(leaf, along), views[-1]]
+
+
+def lengthwise(leaf: Leaf, along: Vector) -> list[Plane]:
+    """Return the planes along the axis of a leaf, the best first; of one with none, `planes`.
+
+    The last is another plane than the ray's own: that of the axis, before which the ray is seen.
+    """
+    if isinstance(leaf, Sphere | HalfSpace):
+        return planes(leaf, along)
+    axis = unit(minus(leaf.q, leaf.p))
+    plane = Plane(square(axis, along), "The plane of the ray that runs along the axis")
     common = cross(along, axis)
     if isinstance(leaf, Slab):
-        return [lengthwise]
+        return [plane]
     if norm(common) < 1e-9:
         return [Plane(square(off(leaf.p, axis), along), "The plane of ray and axis")]
-    common = unit(common)
-    distance = dot(leaf.p, common)
-    projected = replace(
-        lengthwise, aside=times(distance, common), name="The ray, seen before a cut along the axis"
-    )
-    if abs(distance) <= OFF_AXIS * leaf.radius:
-        return [lengthwise, projected]
-    towards = times(-1.0 if distance < 0 else 1.0, common)
-    return [Plane(towards, "The plane of the ray that cuts across the axis"), projected]
+    aside = times(dot(leaf.p, unit(common)), unit(common))
+    return [plane, replace(plane, aside=aside, name="The ray, seen before a cut along the axis")]
+
+
+def crosswise(leaf: Leaf, along: Vector) -> Plane:
+    """Return the plane of the ray that is square to its best plane along the axis."""
+    middle, up = anchor(leaf), lengthwise(leaf, along)[0].up
+    common = cross(along, up)
+    towards = times(-1.0 if dot(middle, common) < 0 else 1.0, common)
+    return Plane(towards, "The plane of the ray that cuts across the axis")
 
 
 def anchor(leaf: Leaf) -> Vector:

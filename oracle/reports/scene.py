@@ -8,10 +8,9 @@ as it does here. What is drawn is the solid's exact trace on close lines paralle
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from math import frexp
 
 from cases.formats import BINARY64
 from cases.model import (
@@ -42,6 +41,8 @@ FARTHEST = 40
 """A solid that is behind the start by more than this times its size is out of the picture."""
 
 Spans = tuple[tuple[float, float], ...]
+Choose = Callable[[Leaf, Vector], list[Plane]]
+"""From a leaf and the direction of the ray to the planes to look in, the best first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,29 +116,37 @@ class Scene:
 
 def scene(solid: Solid, ray: Ray, ends: Sequence[Fraction]) -> Scene | None:
     """Return what to draw; `ends` are the finite endpoints. None for what no picture can hold."""
+    return seen(solid, exact(ray.origin), exact(ray.direction), ends, planes)
+
+
+def seen(
+    solid: Solid, origin: Exact, direction: Exact, ends: Sequence[Fraction], choose: Choose
+) -> Scene | None:
+    """Return what to draw of an exact ray; `choose` tells in which planes to look."""
     try:
-        return _scene(solid, ray, ends)
+        return _scene(solid, origin, direction, ends, choose)
     except (Refused, OverflowError, ZeroDivisionError):
         return None
 
 
-def _scene(solid: Solid, ray: Ray, ends: Sequence[Fraction]) -> Scene | None:
-    pivot = _pivot(solid)
-    origin, direction = _exact(ray.origin), _exact(ray.direction)
-    middle = (min(ends) + max(ends)) / 2 if ends else _closest(pivot, origin, direction)
+def _scene(
+    solid: Solid, origin: Exact, direction: Exact, ends: Sequence[Fraction], choose: Choose
+) -> Scene | None:
+    leaf = pivot(solid)
+    middle = (min(ends) + max(ends)) / 2 if ends else _closest(leaf, origin, direction)
     here = _at(origin, direction, middle)
-    scale = _scale(pivot, here)
+    scale = _scale(leaf, here)
     near = _moved(solid, here, scale)
-    if not any(ray.direction):
+    if not any(direction):
         return None
-    fast = max(frexp(x)[1] for x in ray.direction if x)
+    fast = max(_bits(x) for x in direction if x)
     v = _vector(x / Fraction(2) ** fast for x in direction)
     length = norm(v)
     speed = Fraction(length) * Fraction(2) ** fast * scale
     along = times(1 / length, v)
     reach = float(max((abs(t - middle) * speed for t in ends), default=Fraction(0)))
-    leaf = _pivot(near)
-    views = [_view(near, along, p, leaf, middle, speed, reach) for p in planes(leaf, along)]
+    leaf = pivot(near)
+    views = [_view(near, along, p, leaf, middle, speed, reach) for p in choose(leaf, along)]
     return next((view for view in views if any(view.filled())), views[-1])
 
 
@@ -162,7 +171,7 @@ def _view(
     return Scene(solid, along, plane, middle, speed, half, max(-room, min(height, room)))
 
 
-def _pivot(solid: Solid) -> Leaf:
+def pivot(solid: Solid) -> Leaf:
     """Return the leaf to look at: the first that is bounded somewhere, else the first."""
     found = [leaf for _, leaf in leaves(solid)]
     return next((leaf for leaf in found if not isinstance(leaf, HalfSpace)), found[0])
@@ -178,7 +187,8 @@ def _size(leaf: Leaf, reach: float) -> float:
     return next((x for x in sizes if x >= 0.2 * reach), sizes[-1])
 
 
-def _exact(v: Sequence[float]) -> Exact:
+def exact(v: Sequence[float]) -> Exact:
+    """Return a vector in fractions."""
     x, y, z = map(Fraction, v)
     return (x, y, z)
 
@@ -203,8 +213,8 @@ def _closest(leaf: Leaf, origin: Exact, direction: Exact) -> Fraction:
 
 def _beside(leaf: InfiniteCylinder, origin: Exact, direction: Exact) -> Fraction:
     """Return the t at which the ray passes nearest to an axis; 0 where it runs along it."""
-    w = _sub(_exact(leaf.q), _exact(leaf.p))
-    v, y = _across(direction, w), _across(_sub(origin, _exact(leaf.p)), w)
+    w = _sub(exact(leaf.q), exact(leaf.p))
+    v, y = _across(direction, w), _across(_sub(origin, exact(leaf.p)), w)
     square = sum(x * x for x in v)
     if not square:
         return Fraction(0)
@@ -232,8 +242,12 @@ def _scale(leaf: Leaf, here: Exact) -> Fraction:
         for x, c in zip(getattr(leaf, name), here, strict=True)
     ]
     largest = max(*numbers, Fraction(getattr(leaf, "radius", 0.0)))
-    bits = largest.numerator.bit_length() - largest.denominator.bit_length() if largest else 0
-    return Fraction(2) ** -bits
+    return Fraction(2) ** -(_bits(largest) if largest else 0)
+
+
+def _bits(x: Fraction) -> int:
+    """Return about log2 of the size of a number, which is not 0."""
+    return x.numerator.bit_length() - x.denominator.bit_length()
 
 
 def _moved(solid: Solid, here: Exact, scale: Fraction) -> Solid:
@@ -243,8 +257,8 @@ def _moved(solid: Solid, here: Exact, scale: Fraction) -> Solid:
     changed: dict[str, Vector | float] = {}
     for name in ("center", "point", "p", "q"):
         if hasattr(solid, name):
-            exact = zip(_exact(getattr(solid, name)), here, strict=True)
-            changed[name] = _vector((x - c) * scale for x, c in exact)
+            vector = zip(exact(getattr(solid, name)), here, strict=True)
+            changed[name] = _vector((x - c) * scale for x, c in vector)
     if hasattr(solid, "radius"):
         changed["radius"] = float(Fraction(solid.radius) * scale)
     return replace(solid, **changed)  # type: ignore[arg-type]

@@ -1,0 +1,155 @@
+"""The adopted cases: found by a search, or reported, and kept as data; a family for each file.
+
+`adopted/<family>.jsonl` has a case a line: its inputs, why it is asked, and in which precisions.
+The answers are the oracle's, in the golden files. A file is read when its family is asked for its
+cases, so that a bad one stops nobody else. A slug is never used again: a case that is taken out
+leaves `{"slug": ..., "retired": why}`.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from cases.case import TIERS, Case, Family
+from cases.formats import FORMATS, Format
+from cases.forms import read_ray, read_solid, write_ray, write_solid
+from cases.model import Refused
+
+FOLDER = Path(__file__).parents[1] / "adopted"
+REASON = "Cases that implementations were found to answer wrong, kept as they were found."
+FIELDS = {"slug", "why", "flags", "tier", "source", "precisions", "solid", "ray"}
+Json = dict[str, Any]
+
+
+class BadAdopted(ValueError):
+    """A file of adopted cases that cannot be used; the text names the file and the line."""
+
+
+@dataclass(frozen=True, slots=True)
+class Adopted:
+    """A case and the precisions in which it is asked."""
+
+    case: Case
+    precisions: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Retired:
+    """A slug that no case may have again, and why."""
+
+    slug: str
+    why: str
+
+
+Entry = Adopted | Retired
+
+
+def families(folder: Path = FOLDER) -> tuple[Family, ...]:
+    """Return a family for each file of a folder, by name."""
+    return tuple(family(path.stem, path) for path in sorted(folder.glob("*.jsonl")))
+
+
+def family(name: str, path: Path) -> Family:
+    """Return the family that a file is."""
+    return Family(name, REASON, lambda fmt: list(cases_of(read(path), fmt)))
+
+
+def cases_of(entries: Iterable[Entry], fmt: Format) -> Iterator[Case]:
+    """Yield the cases that are asked in a format."""
+    for entry in entries:
+        if isinstance(entry, Adopted) and fmt.name in entry.precisions:
+            yield entry.case
+
+
+def slug_of(entry: Entry) -> str:
+    """Return the slug that an entry takes."""
+    return entry.slug if isinstance(entry, Retired) else entry.case.slug
+
+
+def read(path: Path) -> tuple[Entry, ...]:
+    """Return the entries of a file, none if there is no such file. Raises `BadAdopted`."""
+    entries: list[Entry] = []
+    seen: set[str] = set()
+    for number, line in enumerate(path.read_bytes().splitlines() if path.exists() else (), 1):
+        try:
+            entry = read_entry(json.loads(line))
+        except (ValueError, Refused, RecursionError) as error:
+            raise BadAdopted(f"{path}:{number}: {error}") from None
+        if slug_of(entry) in seen:
+            raise BadAdopted(f"{path}:{number}: the slug {slug_of(entry)} occurs twice")
+        seen.add(slug_of(entry))
+        entries.append(entry)
+    return tuple(entries)
+
+
+def encode(entries: Iterable[Entry]) -> bytes:
+    """Return the bytes of a file."""
+    lines = (json.dumps(write_entry(entry), separators=(",", ":")) + "\n" for entry in entries)
+    return "".join(lines).encode("ascii")
+
+
+def read_entry(form: object) -> Entry:
+    """Return the entry that a JSON object describes, or refuse it."""
+    if not isinstance(form, dict):
+        raise Refused("case", "is not an object")
+    if set(form) == {"slug", "retired"}:
+        return Retired(_text(form, "slug"), _text(form, "retired"))
+    if set(form) != FIELDS:
+        raise Refused("case", f"has not the fields {', '.join(sorted(FIELDS))}")
+    precisions = _texts(form, "precisions")
+    for name in precisions:
+        if name not in FORMATS:
+            raise Refused("case.precisions", f"is not one of {', '.join(FORMATS)}: {name!r:.40}")
+    if not precisions:
+        raise Refused("case.precisions", "is empty")
+    if form["tier"] not in TIERS:
+        raise Refused("case.tier", f"is not one of {', '.join(TIERS)}: {form['tier']!r:.40}")
+    narrowest = min((FORMATS[name] for name in precisions), key=lambda fmt: fmt.precision)
+    case = Case(
+        slug=_text(form, "slug"),
+        why=_text(form, "why"),
+        solid=read_solid(form["solid"], "solid", "hex", narrowest),
+        ray=read_ray(form["ray"], "ray", "hex", narrowest),
+        tier=form["tier"],
+        flags=_texts(form, "flags"),
+        source=_text(form, "source"),
+    )
+    return Adopted(case, precisions)
+
+
+def write_entry(entry: Entry) -> Json:
+    """Return an entry as a JSON object."""
+    if isinstance(entry, Retired):
+        return {"slug": entry.slug, "retired": entry.why}
+    case = entry.case
+    return {
+        "slug": case.slug,
+        "why": case.why,
+        "flags": list(case.flags),
+        "tier": case.tier,
+        "source": case.source,
+        "precisions": list(entry.precisions),
+        "solid": write_solid(case.solid, "hex"),
+        "ray": write_ray(case.ray, "hex"),
+    }
+
+
+def _text(form: Json, name: str) -> str:
+    value = form[name]
+    if not isinstance(value, str) or not value:
+        raise Refused(f"case.{name}", "is not a text")
+    return value
+
+
+def _texts(form: Json, name: str) -> tuple[str, ...]:
+    values = form[name]
+    if not isinstance(values, list) or not all(isinstance(value, str) for value in values):
+        raise Refused(f"case.{name}", "is not a list of texts")
+    return tuple(values)
+
+
+FAMILIES = families()

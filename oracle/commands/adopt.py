@@ -1,0 +1,154 @@
+"""`raycert adopt`: keep a found case in a corpus, after every witness has checked it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from oracle.commands.asking import from_json
+from oracle.commands.listing import PRECISIONS, TIER_NAMES, BadInput
+from oracle.commands.output import check_writable
+
+if TYPE_CHECKING:
+    from cases.formats import Format
+    from oracle.adopt import Found
+    from oracle.crosscheck import Checked
+
+EPILOG = """\b
+Examples:
+  raycert adopt hunted --id hunt-0/missed-sphere-1 --family grazed-spheres \\
+      --why "A grazed sphere is lost where the start is 300 radii away."
+  raycert adopt case.json --family caps --slug axis-in-the-cap-plane \\
+      --source "example/tracer #12" --flag cap-plane \\
+      --why "A ray in the plane of a cap passes the axis."
+  raycert adopt case.json --family mine --why "..." --corpus my-corpus
+  raycert certify --golden my-corpus/golden ./my_tracer
+
+\b
+FILE is a JSON object {"solid": ..., "ray": ...} as in the line protocol, a
+golden file (.jsonl), or a directory of golden files, such as hunt writes.
+The inputs go to CORPUS/adopted/FAMILY.jsonl, and the rows made of them to
+CORPUS/golden. In a checkout the corpus is the project's own.
+
+\b
+Exit status: 0 adopted, 1 a witness finds another answer, 2 bad usage or input,
+or the corpus has the case already.
+"""
+
+
+@click.command(epilog=EPILOG)
+@click.argument("file", type=click.Path(exists=True, path_type=Path))
+@click.option("--family", required=True, help="The family to put it in; made if it is new.")
+@click.option("--why", required=True, help="What the case shows: one sentence of fact.")
+@click.option("--id", help="Which row of FILE, where it has several.")
+@click.option("--slug", help="Its name in the family  [default: from what it shows]")
+@click.option("--source", help="The public report that it comes from.")
+@click.option("--flag", "flags", multiple=True, help="A flag of the legend (repeatable).")
+@click.option("--tier", type=click.Choice(TIER_NAMES), help="[default: told by its numbers]")
+@click.option(
+    "--precision",
+    type=click.Choice(PRECISIONS),
+    default="binary64",
+    show_default=True,
+    help="Number format of FILE, where its folder does not tell.",
+)
+@click.option(
+    "--corpus",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="The corpus  [default: the project's own, in a checkout]",
+)
+def adopt(file: Path, family: str, slug: str | None, corpus: Path | None, **options: Any) -> None:
+    """Keep a found case: check it with all witnesses, name it, and make its golden rows.
+
+    Its id is FAMILY/SLUG, and no slug is used twice. `raycert golden write` makes the same rows
+    again. The witnesses that are installed are asked; one that finds another answer refuses.
+    """
+    from cases.corpus import BadCorpus
+    from cases.families.adopted import BadAdopted
+    from oracle.adopt import Unfit, examine, installed
+    from oracle.adopt import adopt as keep
+    from oracle.golden import Contradiction
+
+    folder = _corpus(corpus)
+    check_writable(folder, "--corpus")
+    found = _found(file, options)
+    try:
+        checked = examine(found, installed())
+        kept = keep(folder, family, found, slug)
+    except Contradiction as error:
+        raise click.ClickException(f"nothing was written: {error}") from None
+    except (Unfit, BadAdopted, BadCorpus) as error:
+        raise BadInput(str(error)) from None
+    _say(checked)
+    click.echo(f"adopted as {kept.id} ({', '.join(kept.precisions)})")
+    for path in kept.files:
+        click.echo(f"written {path}")
+
+
+def _corpus(corpus: Path | None) -> Path:
+    """Return the folder of the corpus: the one given, or that of the checkout this runs in."""
+    from oracle.adopt import CORPUS
+
+    if corpus is not None:
+        return corpus
+    if not (CORPUS.parent / "pyproject.toml").is_file():
+        raise BadInput("this is no checkout; say where to keep the case: --corpus DIR")
+    return CORPUS
+
+
+def _found(file: Path, options: dict[str, Any]) -> Found:
+    """Return the case of the file, with what the options say of it."""
+    from dataclasses import replace
+
+    from cases.formats import FORMATS
+    from oracle.adopt import Found
+
+    fmt, id = FORMATS[options["precision"]], options["id"]
+    if file.is_dir() or file.suffix == ".jsonl":
+        found = _row(file, fmt, id, options["why"])
+    elif id is not None:
+        raise BadInput(f"--id: {file} is one case, and no golden file")
+    else:
+        found = Found(*from_json(file.read_bytes(), fmt, str(file)), fmt, options["why"])
+    found = replace(found, tier=options["tier"])
+    if options["source"] is not None:
+        found = replace(found, source=options["source"])
+    flags = dict.fromkeys((*found.flags, *options["flags"]))
+    return replace(found, flags=tuple(flags))
+
+
+def _row(file: Path, fmt: Format, id: str | None, why: str) -> Found:
+    from cases.corpus import BadCorpus
+    from oracle.adopt import from_row, rows_in
+
+    try:
+        rows = rows_in(file, fmt)
+    except BadCorpus as error:
+        raise BadInput(str(error)) from None
+    chosen = [(row, own) for row, own in rows if id in (None, row.id)]
+    ids = ", ".join(sorted({row.id for row, _ in rows})[:8])
+    if not rows:
+        raise BadInput(f"{file} has no golden rows")
+    if not chosen:
+        raise BadInput(f"--id: no row {id!r} in {file}; it has {ids}")
+    if len({row.id for row, _ in chosen}) > 1:
+        raise BadInput(f"{file} has {len(rows)} rows; choose one with --id: {ids}")
+    wanted = [(row, own) for row, own in chosen if own is fmt] or chosen
+    return from_row(*wanted[0], why)
+
+
+def _say(checked: Checked) -> None:
+    """Print what each witness says."""
+    from oracle.witness.verdict import WITNESSES
+
+    click.echo(f"exactly {checked.answer}")
+    said = {name: verdict for name, verdict, _ in checked.verdicts}
+    for name in WITNESSES:
+        if name not in said:
+            click.echo(f"{name}: not installed, not asked")
+            continue
+        verdict = said[name]
+        why = f": {verdict.why}" if verdict.outcome == "undecided" and verdict.why else ""
+        click.echo(f"{name}: {verdict.outcome}{why}")

@@ -1,0 +1,167 @@
+"""A case as a command takes it: a solid and a ray by options, or an object of the line protocol.
+
+Numbers on a command line are decimals or hex floats, and are taken to the nearest number of the
+format; which of them are not exact is noted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+from oracle.commands.listing import BadInput
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+    from cases.formats import Format
+    from cases.forms import Json
+    from cases.model import Ray, Solid
+    from oracle.derivation.form import Fact
+
+SHAPES = {
+    "cylinder": ("p", "q", "radius"),
+    "infinite_cylinder": ("p", "q", "radius"),
+    "slab": ("p", "q"),
+    "half_space": ("point", "normal"),
+    "sphere": ("center", "radius"),
+}
+"""The solids that options can spell, and the fields in the order of their words."""
+HELP = {
+    "cylinder": "Axis from P to Q, radius R.",
+    "infinite_cylinder": "Axis through P and Q, radius R.",
+    "slab": "Between the planes through P and Q, square to PQ.",
+    "half_space": "On the side of POINT away from NORMAL.",
+    "sphere": "About CENTER, radius R.",
+}
+
+Decorated = TypeVar("Decorated", bound=Callable[..., Any])
+
+
+def shape_options(function: Decorated) -> Decorated:
+    """Add an option for each solid that options can spell, and one for the ray."""
+    function = click.option("--ray", nargs=2, metavar="U V", help="Origin and direction.")(function)
+    for name in reversed(SHAPES):
+        words = tuple("R" if field == "radius" else field.upper() for field in SHAPES[name])
+        option = f"--{name.replace('_', '-')}"
+        about, metavar = HELP[name], " ".join(words)
+        function = click.option(option, name, nargs=len(words), metavar=metavar, help=about)(
+            function
+        )
+    return function
+
+
+def words_given(options: dict[str, Any]) -> bool:
+    """Tell whether any of these options is given."""
+    return bool(options["ray"] or any(options[name] for name in SHAPES))
+
+
+def from_json(data: bytes, fmt: Format, option: str) -> tuple[Solid, Ray]:
+    """Return the case of an object with solid and ray; strings are hex floats or bit patterns.
+
+    Ends the command with exit status 2 where it is none; `option` names it in the message.
+    """
+    from cases.forms import read_ray, read_solid
+    from cases.model import Refused
+    from cases.protocol import BadLine, decode
+
+    try:
+        form = decode(data)
+        for name in ("solid", "ray"):
+            if name not in form:
+                raise Refused(name, 'is missing; the form is {"solid": {...}, "ray": {...}}')
+        spelling = _spelling(form["ray"])
+        ray = read_ray(form["ray"], "ray", spelling, fmt)
+        return read_solid(form["solid"], "solid", spelling, fmt), ray
+    except BadLine as error:
+        raise BadInput(f"{option} {error}") from None
+    except Refused as refusal:
+        raise BadInput(f"{refusal}{_advice(fmt)}") from None
+
+
+def _spelling(ray: object) -> Any:
+    """Return how the numbers of an object are spelled, told by the ray's first one."""
+    origin = ray.get("origin") if isinstance(ray, dict) else None
+    first = origin[0] if isinstance(origin, list) and origin else None
+    if not isinstance(first, str):
+        return "decimal"
+    return "hex" if "x" in first.lower() else "bits"
+
+
+def _advice(fmt: Format) -> str:
+    return "" if fmt.name == "binary64" else f" (for --precision {fmt.name})"
+
+
+def from_words(options: dict[str, Any], fmt: Format, rounded: list[Fact]) -> tuple[Solid, Ray]:
+    """Return the solid and the ray of the options; note in `rounded` each number not exact."""
+    from cases.forms import read_ray, read_solid
+    from cases.model import Refused
+
+    shapes = [name for name in SHAPES if options[name]]
+    if len(shapes) != 1 or not options["ray"]:
+        raise click.UsageError("give one solid and its ray: --cylinder P Q R --ray U V")
+    name = shapes[0]
+    solid: Json = {"type": name}
+    try:
+        for field, word in zip(SHAPES[name], options[name], strict=True):
+            solid[field] = _value(word, f"solid.{field}", fmt, rounded, field == "radius")
+        fields = zip(("origin", "direction"), options["ray"], strict=True)
+        ray = {field: _value(word, f"ray.{field}", fmt, rounded) for field, word in fields}
+        return read_solid(solid, fmt=fmt), read_ray(ray, fmt=fmt)
+    except Refused as refusal:
+        raise BadInput(str(refusal)) from None
+
+
+def _value(
+    word: str, path: str, fmt: Format, rounded: list[Fact], single: bool = False
+) -> float | list[float]:
+    """Return the number or the vector that a word spells."""
+    from cases.model import Refused
+
+    if single:
+        return _number(word, path, fmt, rounded)
+    parts = word.split(",")
+    if len(parts) != 3:
+        raise Refused(path, f"is not three numbers x,y,z without blanks: {word!r:.40}")
+    return [_number(part, f"{path}[{i}]", fmt, rounded) for i, part in enumerate(parts)]
+
+
+def _number(text: str, path: str, fmt: Format, rounded: list[Fact]) -> float:
+    """Return the number of the format nearest to a text; note it in `rounded` if it is another."""
+    from fractions import Fraction
+    from math import isfinite
+
+    from cases.model import Refused
+    from oracle.derivation.form import Fact, about, dyadic
+    from oracle.rounding import enclose
+    from oracle.surd import fraction
+
+    try:
+        number = float.fromhex(text) if "x" in text.lower() else float(text)
+    except (ValueError, OverflowError):
+        hint = "write a decimal such as 0.1 or a hex float such as 0x1.8p-3"
+        raise Refused(path, f"is not a number: {text!r:.40}; {hint}") from None
+    if not isfinite(number):
+        raise Refused(path, f"is NaN or beyond {fmt.name}: {text!r:.40}; write a finite number")
+    exact = _exactly(text) if number else Fraction(0)
+    number = enclose(fraction(exact.numerator, exact.denominator), fmt).nearest
+    if not isfinite(number):
+        raise Refused(path, f"is beyond {fmt.name}: {text!r:.40}")
+    if Fraction(number) != exact or (not number and any(c in "123456789" for c in text[:40])):
+        value = Fraction(number)
+        rounded.append(Fact(f"{path} {text.strip():.24}", dyadic(value), about(value, 24)))
+    return number
+
+
+def _exactly(text: str) -> Fraction:
+    """Return what a decimal or a hex float spells, whose size is that of a binary64 number."""
+    from fractions import Fraction
+
+    text = text.strip().lower().replace("_", "")
+    if "x" not in text:
+        return Fraction(text)
+    mantissa, _, power = text.replace("0x", "").partition("p")
+    whole, _, part = mantissa.partition(".")
+    return Fraction(int(whole + part, 16)) * Fraction(2) ** (int(power or 0) - 4 * len(part))

@@ -1,0 +1,220 @@
+"""`raycert map`: the picture around a case, two of its inputs on the axes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from oracle.commands.asking import from_json, from_words, shape_options, words_given
+from oracle.commands.listing import BadInput, find, golden_option, precision_option, read
+from oracle.commands.output import check_writable
+from oracle.commands.progress import counting
+from oracle.commands.targeting import aim, limits, limits_options, stop
+
+if TYPE_CHECKING:
+    from cases.formats import Format
+    from oracle.map.cells import Map
+    from oracle.map.inputs import Case
+    from oracle.map.plan import Plan
+
+PICTURES, DATA = (".png", ".svg"), (".json", ".csv")
+SHOWS = ("exact", "answer", "k", "ulps", "disagreement")
+UNITS = ("ulps", "units", "relative")
+CELLS = 96
+
+EPILOG = """\b
+Inputs are named by their paths: ray.origin[1], solid.radius, solid.q[2],
+solid.of[1].center[2]. A direction is a list path=weight,... and moves all of
+them at once: ray.origin[0]=1,ray.origin[1]=-1.
+
+\b
+In ulps an input moves along the grid of its format, number by number (from 0 in
+steps of 2^-53, 2^-24 in binary32); in units and relatively to the nearest
+number. Every cell is a real case, answered by the exact oracle.
+
+\b
+What is shown:
+  exact         the form of the exact answer: pairs, rows of the case table, faces
+  answer        the form of what TARGET answers
+  k             its backward error: right if every face moves by k roundings
+  ulps          its forward error
+  disagreement  how it differs: rounded right, faithful, pairs lost, ...
+Over all of them curves show where the exact answer changes its form: a double
+root, a rim, faces that coincide, a start on a face, a direction parallel to one.
+
+\b
+Examples:
+  raycert map --cylinder 0,0,0 0,0,2 1 --ray=-3,1,1 1,0,0 \\
+      --x ray.origin[1] --y solid.radius --out tangent.png
+  raycert map far-grazing/cylinder-tangent-1e8 --x ray.origin[1] --y solid.radius \\
+      --unit units --span 1e-7 --show disagreement \\
+      --target oracle.textbook:textbook --out lost.svg --out lost.csv
+  raycert map --json case.json --x ray.origin[0]=1,ray.origin[2]=1 \\
+      --y solid.of[1].q[2] --unit units --span 0.5 --out film.png
+
+\b
+Exit status: 0 done; 2 bad usage or input; 3 the target could not be run.
+"""
+
+
+@click.command(name="map", epilog=EPILOG)
+@click.argument("id", required=False)
+@shape_options
+@click.option(
+    "--json", "file", type=click.File("rb"), help="File with solid and ray; - is standard input."
+)
+@click.option("--x", "x", required=True, metavar="PATHS", help="What moves to the right.")
+@click.option("--y", "y", required=True, metavar="PATHS", help="What moves upward.")
+@click.option("--span", help="How far on each side.  [half of --cells in ulps, else 1]")
+@click.option("--unit", type=click.Choice(UNITS), default="ulps", show_default=True)
+@click.option(
+    "--cells",
+    type=click.IntRange(2, 1000),
+    default=CELLS,
+    show_default=True,
+    help="At most about so many on an axis.",
+)
+@click.option("--show", type=click.Choice(SHOWS), help="[exact, or k with --target]")
+@click.option(
+    "--target",
+    help="reference (default), oracle, module:function, ./tracer.so, or a command line.",
+)
+@click.option(
+    "--out",
+    "outs",
+    type=click.Path(dir_okay=False, path_type=Path),
+    multiple=True,
+    required=True,
+    help="File: .png, .svg, .json or .csv (repeatable).",
+)
+@limits_options
+@precision_option
+@golden_option
+def draw_map(**options: Any) -> None:
+    """Draw what surrounds a case: for each cell the exact answer, or how far a target's is right.
+
+    The case is a golden row by its ID, or a solid and a ray by options, or --json, as for explain.
+    Ctrl-C keeps the cells that are done: those around the case come first.
+    """
+    if bool(options["id"]) + bool(options["file"]) + bool(words_given(options)) != 1:
+        raise click.UsageError("give one case: an ID, or --json, or a solid with --ray")
+    write = _writers(options["outs"])
+    show = options["show"] or ("k" if options["target"] else "exact")
+    if show == "exact" and options["target"]:
+        raise click.UsageError("--show exact asks no --target")
+    plan = _plan(options)
+    found = _sampled(plan, show, options)
+    if not found.cells:
+        raise click.ClickException("interrupted before a cell was done; nothing was written")
+    for path in options["outs"]:
+        write[path](found, _title(options))
+    _print(found, options["outs"])
+
+
+def _writers(outs: tuple[Path, ...]) -> dict[Path, Callable[[Map, str], None]]:
+    """Return for each file what writes it; refuse now what cannot be written."""
+    found: dict[Path, Callable[[Map, str], None]] = {}
+    for path in outs:
+        suffix = path.suffix.lower()
+        if suffix not in (*PICTURES, *DATA):
+            known = ", ".join((*PICTURES, *DATA))
+            raise click.BadParameter(f"{path}: not one of {known}", param_hint="--out")
+        check_writable(path.parent, "--out")
+        found[path] = _picture(path) if suffix in PICTURES else _data(path)
+    return found
+
+
+def _picture(path: Path) -> Callable[[Map, str], None]:
+    try:
+        from oracle.plots.cells import save
+    except ImportError as error:
+        raise BadInput(
+            f'pictures need matplotlib: pip install "raycert[plots]" ({error})'
+        ) from None
+    return lambda found, title: save(found, title, path)
+
+
+def _data(path: Path) -> Callable[[Map, str], None]:
+    import json
+
+    from oracle.map.data import to_csv, to_json
+
+    if path.suffix.lower() == ".csv":
+        return lambda found, _: _put(path, to_csv(found))
+    return lambda found, _: _put(path, json.dumps(to_json(found), indent=1) + "\n")
+
+
+def _put(path: Path, text: str) -> None:
+    path.write_text(text, encoding="ascii", newline="\n")
+
+
+def _case(options: dict[str, Any], fmt: Format) -> Case:
+    """Return the case that the words name."""
+    if options["id"]:
+        row = find(read(options["precision"], options["golden"]), options["id"])
+        return row.solid, row.ray
+    if options["file"]:
+        return from_json(options["file"].read(), fmt, "--json")
+    return from_words(options, fmt, [])
+
+
+def _plan(options: dict[str, Any]) -> Plan:
+    from fractions import Fraction
+
+    from cases.formats import FORMATS
+    from cases.model import Refused
+    from oracle.map.inputs import Inputs
+    from oracle.map.plan import Plan
+
+    fmt, cells = FORMATS[options["precision"]], options["cells"]
+    usual = str(cells // 2) if options["unit"] == "ulps" else "1"
+    inputs = Inputs(*_case(options, fmt), fmt)
+    try:
+        span = Fraction(options["span"] or usual)
+    except (ValueError, ZeroDivisionError):
+        raise click.BadParameter("is not a number", param_hint="--span") from None
+    try:
+        axes = inputs.direction(options["x"]), inputs.direction(options["y"])
+        return Plan.of(inputs, axes, options["unit"], span, cells)
+    except Refused as refusal:
+        raise BadInput(str(refusal)) from None
+
+
+def _sampled(plan: Plan, show: Any, options: dict[str, Any]) -> Map:
+    import shlex
+
+    from oracle.client.dialogue import Unusable
+    from oracle.map.cells import sample
+
+    target = None
+    if show != "exact":
+        try:
+            words = tuple(shlex.split(options["target"] or "reference"))
+        except ValueError as error:
+            raise click.BadParameter(str(error), param_hint="--target") from None
+        target = aim(words)
+    try:
+        return sample(plan, show, target, limits(options), counting)
+    except Unusable as error:
+        stop(str(error))
+
+
+def _title(options: dict[str, Any]) -> str:
+    from oracle.commands.asking import SHAPES
+
+    if options["id"]:
+        return f"Around {options['id']}"
+    shape = next((name for name in SHAPES if options[name]), None)
+    solid = "solid" if shape is None else shape.replace("_", " ")
+    return f"Around a ray and {'an' if solid[0] in 'aeiou' else 'a'} {solid}"
+
+
+def _print(found: Map, outs: tuple[Path, ...]) -> None:
+    from oracle.map.legend import summary
+
+    for line in summary(found):
+        click.echo(line)
+    click.echo(f"wrote {', '.join(map(str, outs))}")

@@ -1,0 +1,186 @@
+"""What is shown of a map: classes in order, curves between forms, the words for them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Iterator
+from math import inf, isinf
+from textwrap import wrap
+
+from oracle.map.cells import BEYOND, EXACT, FAITHFUL, FEW, MANY, NUMBERS, RIGHT, WITHIN, Cell, Map
+from oracle.map.plan import At
+from oracle.map.topology import KINDS, Kind, between
+
+ORDER = (
+    EXACT,
+    FAITHFUL,
+    RIGHT + WITHIN,
+    FEW + WITHIN,
+    MANY + WITHIN,
+    RIGHT + BEYOND,
+    FEW + BEYOND,
+    MANY + BEYOND,
+)
+"""The classes of a disagreement, from none to the worst."""
+Corner = tuple[int, int]
+"""A corner of cells: (i, j) is the lower left one of the cell (i, j)."""
+Edge = tuple[Corner, Corner]
+
+
+def class_of(cell: Cell) -> str:
+    """Return the class of a cell, without the particulars of a failure; empty for a number."""
+    if cell.refused:
+        return "no valid case"
+    head = cell.says.partition(":")[0]
+    if cell.topology is not None and cell.says == cell.topology.label:
+        return cell.says
+    return head if head == cell.says else f"no answer: {head}"
+
+
+def classes(found: Map) -> list[tuple[str, int]]:
+    """Return the classes of a map with how many cells each has, in the order of a legend."""
+    counts = Counter(name for name in map(class_of, found.cells.values()) if name)
+
+    def place(name: str) -> tuple[int, int, str]:
+        if name == "no valid case" or name.startswith("no answer"):
+            return (len(ORDER) + 1, 0, name)
+        return (ORDER.index(name) if name in ORDER else len(ORDER), pairs_of(name), name)
+
+    return [(name, counts[name]) for name in sorted(counts, key=place)]
+
+
+def pairs_of(name: str) -> int:
+    """Return how many pairs a class has, read from its name; a hit counts as one."""
+    first, _, _ = name.partition(" ")
+    return int(first) if first.isdigit() else 0 if first == "no" else 1
+
+
+def thin(found: Map) -> dict[At, Kind]:
+    """Return the cells that lie on a degeneracy exactly, where those form no area but a line.
+
+    An area is a square of four cells that meet the same; there the form is what is usual.
+    """
+    met = {
+        at: c.topology.kinds[0] for at, c in found.cells.items() if c.topology and c.topology.kinds
+    }
+
+    def fills(i: int, j: int) -> bool:
+        square = {met.get(at) for at in ((i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1))}
+        return len(square) == 1 and None not in square
+
+    return {
+        (i, j): kind
+        for (i, j), kind in met.items()
+        if not any(fills(a, b) for a in (i - 1, i) for b in (j - 1, j))
+    }
+
+
+def edges(found: Map) -> dict[Kind, list[Edge]]:
+    """Return the edges between cells of different exact forms, by what lies there.
+
+    Those of `thin` cells are left out: there the curve goes through the cells.
+    """
+    by_kind: dict[Kind, list[Edge]] = {kind: [] for kind in KINDS}
+    line = thin(found)
+    plain = {at: c.topology for at, c in found.cells.items() if c.topology and at not in line}
+    for (i, j), form in plain.items():
+        sides: tuple[tuple[At, Edge], ...] = (
+            ((i + 1, j), ((i + 1, j), (i + 1, j + 1))),
+            ((i, j + 1), ((i, j + 1), (i + 1, j + 1))),
+        )
+        for beside, edge in sides:
+            other = plain.get(beside)
+            kind = between(form, other) if other else None
+            if kind:
+                by_kind[kind].append(edge)
+    return {kind: found for kind, found in by_kind.items() if found}
+
+
+def links(places: Collection[At]) -> list[Edge]:
+    """Return the pairs of cells that touch: at a side, or at a corner where no side leads on."""
+    found = list[Edge]()
+    for i, j in places:
+        beside = (at for at in ((i + 1, j), (i, j + 1)) if at in places)
+        found += (((i, j), at) for at in beside)
+        for up in (1, -1):
+            corners = (i + 1, j), (i, j + up)
+            if (i + 1, j + up) in places and not any(at in places for at in corners):
+                found.append(((i, j), (i + 1, j + up)))
+    return found
+
+
+def lines(edges: list[Edge]) -> list[list[Corner]]:
+    """Return edges joined to lines, each edge in one of them once; ends of lines come first."""
+    at: dict[Corner, list[Corner]] = {}
+    for a, b in edges:
+        at.setdefault(a, []).append(b)
+        at.setdefault(b, []).append(a)
+    starts = sorted(at, key=lambda corner: (len(at[corner]) % 2 == 0, corner))
+    joined = []
+    for start in starts:
+        while at[start]:
+            line = [start]
+            while at[line[-1]]:
+                here = line[-1]
+                there = at[here].pop(0)
+                at[there].remove(here)
+                line.append(there)
+            joined.append(line)
+    return joined
+
+
+def extremes(found: Map) -> tuple[float, float] | None:
+    """Return the least and the largest finite number of a map; None if there is none."""
+    values = [c.value for c in found.cells.values() if c.value is not None and not isinf(c.value)]
+    return (min(values), max(values)) if values else None
+
+
+def summary(found: Map) -> Iterator[str]:
+    """Yield lines that say what was found."""
+    total, cells = len(found.plan.places), found.cells.values()
+    yield f"{len(cells)} of {total} cells" + ("" if found.whole else "; interrupted")
+    for name, count in classes(found):
+        yield f"  {count:6}  {name}"
+    if found.show in NUMBERS:
+        ends = extremes(found)
+        if ends:
+            yield f"  {found.show} from {ends[0]:.3g} to {ends[1]:.3g}"
+        if endless := sum(cell.value == inf for cell in cells):
+            yield f"  {endless:6}  {endless_text(found)}"
+    on, along = Counter(thin(found).values()), edges(found)
+    for kind in KINDS:
+        if on[kind] or kind in along:
+            beside = len(along.get(kind, ()))
+            yield f"  curve: {kind}, through {on[kind]} cells, between {beside} pairs of cells"
+
+
+def endless_text(found: Map) -> str:
+    """Return what an infinite number of a map means."""
+    return "no k is enough" if found.show == "k" else "another number of pairs"
+
+
+def subtitle(found: Map) -> str:
+    """Return what a map shows, and of whom."""
+    name = f" of {found.hello.name}" if found.hello else ""
+    shown = {
+        "exact": "exact answer: pairs, and rows of the case table or faces",
+        "answer": f"the answers{name}",
+        "k": f"strict backward error k of the answers{name}",
+        "ulps": f"forward error in ulps of the answers{name}",
+        "disagreement": f"the answers{name}, compared with the exact lists",
+    }[found.show]
+    left = "" if found.whole else f"; interrupted, {len(found.cells)} cells done"
+    return f"{shown}{left}"
+
+
+def axis_label(found: Map, name: str) -> str:
+    """Return what an axis says: the inputs it moves, their values in the middle, the unit."""
+    plan = found.plan
+    direction = plan.x if name == "x" else plan.y
+    unit = {"ulps": "ulps from", "units": "units from", "relative": "share of"}[plan.unit]
+    if len(direction.terms) == 1 and direction.terms[0][1] == 1:
+        path = direction.terms[0][0]
+        return f"{path}, {unit} {plan.inputs[path]!r}"
+    values = ", ".join(f"{path} {plan.inputs[path]!r}" for path, _ in direction.terms)
+    text = f"{direction}\n{unit} {values}"
+    return "\n".join(part for line in text.split("\n") for part in wrap(line, 78))
