@@ -1,36 +1,13 @@
 """Executors do every unit, and a lost worker's again; nothing is lost, nothing counted twice."""
 
-import os
-import signal
 from functools import partial
-from pathlib import Path
 
 import pytest
+from hunted_work import deadly, deadly_once, easy, wrong
 
 from oracle.hunt.executors import ATTEMPTS, Here, Lost, Processes
 from oracle.hunt.ledger import Ledger
-from oracle.hunt.unit import Done, Unit, Worst
-
-
-def easy(unit):
-    return Done(unit.number, unit.cases, Worst(), ())
-
-
-def deadly_once(folder, unit):
-    """Kills its own process at its first unit 3."""
-    mark = Path(folder) / "died"
-    if unit.number == 3 and not mark.exists():
-        mark.touch()
-        os.kill(os.getpid(), signal.SIGKILL)
-    return easy(unit)
-
-
-def deadly(unit):
-    os.kill(os.getpid(), signal.SIGKILL)
-
-
-def wrong(unit):
-    raise ValueError("a fault of ours")
+from oracle.hunt.unit import Unit
 
 
 def collected(executor, count):
