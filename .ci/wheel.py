@@ -4,13 +4,19 @@ import subprocess
 import sys
 import zipfile
 
-PACKAGES = ("cases/", "oracle/", "reference/")
+FOLDERS = ("cases/", "oracle/", "reference/")
+FACE = "oracle/face/"
+
+
+def installed(name: str) -> str:
+    """Return where a file of the repository lies in the wheel."""
+    return f"raycert/{name.removeprefix(FACE)}"
 
 
 def main(wheel: str) -> int:
     """Compare the wheel's files with those that git tracks."""
     tracked = subprocess.run(["git", "ls-files"], check=True, capture_output=True, text=True)
-    wanted = {name for name in tracked.stdout.split("\n") if name.startswith(PACKAGES)}
+    wanted = {installed(name) for name in tracked.stdout.split("\n") if name.startswith(FOLDERS)}
     with zipfile.ZipFile(wheel) as archive:
         packed = {name for name in archive.namelist() if ".dist-info/" not in name}
     for name in sorted(wanted ^ packed):

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
-from cases.formats import Format
-from cases.model import Ray, Solid
+from raycert.cases.formats import Format
+from raycert.cases.model import Ray, Solid
 
 Tier = Literal["lattice", "generic", "stiff", "range"]
 TIERS: tuple[Tier, ...] = ("lattice", "generic", "stiff", "range")

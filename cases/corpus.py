@@ -15,9 +15,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from cases.formats import FORMATS, Format
-from cases.model import Refused
-from cases.row import GoldenRow, read_row, write_row
+from raycert.cases.formats import FORMATS, Format
+from raycert.cases.model import Refused
+from raycert.cases.row import GoldenRow, read_row, write_row
 
 FORMAT_VERSION = 1
 CORPUS_VERSION = "2026.1"

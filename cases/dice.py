@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from cases.formats import Format
+from raycert.cases.formats import Format
 
 MASK = (1 << 64) - 1
 

@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import TypeVar
 
-from cases.case import Case
-from cases.dice import Dice
-from cases.families.frames import ALIGNED, OBLIQUE, Exact, Frame, Number
-from cases.families.ladders import decades
-from cases.families.shapes import Shape, ball, below, layer, pipe, rod, scene
-from cases.families.sketch import MISS, Pairs, near, pair, plus, ten, times, two
-from cases.formats import Format
+from raycert.cases.case import Case
+from raycert.cases.dice import Dice
+from raycert.cases.families.frames import ALIGNED, OBLIQUE, Exact, Frame, Number
+from raycert.cases.families.ladders import decades
+from raycert.cases.families.shapes import Shape, ball, below, layer, pipe, rod, scene
+from raycert.cases.families.sketch import MISS, Pairs, near, pair, plus, ten, times, two
+from raycert.cases.formats import Format
 
 T = TypeVar("T")
 CHORDS = ((3, 4, 5), (4, 3, 5), (5, 12, 13), (15, 8, 17), (24, 7, 25), (20, 21, 29), (0, 3, 3))

@@ -1,7 +1,7 @@
 """Rays and solids as JSON objects, both ways.
 
 Reading refuses every malformed object with `Refused`, whose path leads to the field:
-`solid.of[1].radius`. Reals are spelled as `cases.formats` says.
+`solid.of[1].radius`. Reals are spelled as `raycert.cases.formats` says.
 """
 
 from __future__ import annotations
@@ -10,8 +10,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import fields
 from typing import Any
 
-from cases.formats import BINARY64, Format, Spelling, parse, spell
-from cases.model import SOLIDS, Ray, Refused, Solid, real, type_of
+from raycert.cases.formats import BINARY64, Format, Spelling, parse, spell
+from raycert.cases.model import SOLIDS, Ray, Refused, Solid, real, type_of
 
 Json = dict[str, Any]
 DEEPEST = 200

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from math import isinf
 from typing import TypeVar
 
-from cases.protocol import FromInside
+from raycert.cases.protocol import FromInside
 
 T = TypeVar("T", bound=float)
 

@@ -11,15 +11,25 @@ from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 
-from cases.case import Case
-from cases.dice import Dice
-from cases.draw import CHORDS, Aim, Draw, any_aim, shot
-from cases.families.frames import UPRIGHT, Exact
-from cases.families.ladders import is_double
-from cases.families.shapes import Boolean, Shape, ball, below, layer, moved, pipe, rod, scene
-from cases.families.sketch import plus, times, two
-from cases.families.stretches import AHEAD, SPEED, START, STYLES, Stretch, Term, build
-from cases.formats import Format
+from raycert.cases.case import Case
+from raycert.cases.dice import Dice
+from raycert.cases.draw import CHORDS, Aim, Draw, any_aim, shot
+from raycert.cases.families.frames import UPRIGHT, Exact
+from raycert.cases.families.ladders import is_double
+from raycert.cases.families.shapes import (
+    Boolean,
+    Shape,
+    ball,
+    below,
+    layer,
+    moved,
+    pipe,
+    rod,
+    scene,
+)
+from raycert.cases.families.sketch import plus, times, two
+from raycert.cases.families.stretches import AHEAD, SPEED, START, STYLES, Stretch, Term, build
+from raycert.cases.formats import Format
 
 
 def _far(draw: Draw) -> Case:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from itertools import combinations
 
-from cases.model import (
+from raycert.cases.model import (
     Cylinder,
     HalfSpace,
     InfiniteCylinder,

@@ -1,6 +1,6 @@
 """The line of a question, spelled straight into text: a corpus is some thousands of them.
 
-To the byte what `json` would write of the forms of `cases.forms`, several times as fast.
+To the byte what `json` would write of the forms of `raycert.cases.forms`, several times as fast.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from dataclasses import fields
 from functools import cache
 from json.encoder import encode_basestring_ascii
 
-from cases.formats import BINARY64, Format, Spelling
-from cases.model import TYPE_NAMES, Difference, Intersection, Ray, Solid, Union, Vector
+from raycert.cases.formats import BINARY64, Format, Spelling
+from raycert.cases.model import TYPE_NAMES, Difference, Intersection, Ray, Solid, Union, Vector
 
 WriteNumber = Callable[[float], str]
 WriteVector = Callable[[Vector], str]

@@ -7,8 +7,8 @@ Nothing here computes geometry.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields
 
 Vector = tuple[float, float, float]
 
@@ -218,9 +218,39 @@ SOLIDS: dict[str, type[Solid]] = {
 TYPE_NAMES: dict[type[Solid], str] = {kind: name for name, kind in SOLIDS.items()}
 
 
+FIELDS: dict[type[Leaf], tuple[str, ...]] = {
+    kind: tuple(field.name for field in fields(kind)) for kind in Leaf.__args__
+}
+"""Of each type of leaf its fields in order, each a vector or a length."""
+
+
 def type_of(solid: Solid) -> str:
     """Return the JSON type name of a solid: `cylinder`, `union`, ..."""
     return TYPE_NAMES[type(solid)]
+
+
+def parts(solid: Solid) -> tuple[Solid, ...]:
+    """Return the parts of a tree; a leaf has none."""
+    return solid.of if isinstance(solid, Tree) else ()
+
+
+def nodes(solid: Solid) -> Iterator[Solid]:
+    """Yield a solid and all that it is made of, each before its parts."""
+    yield solid
+    for part in parts(solid):
+        yield from nodes(part)
+
+
+def types(solid: Solid) -> set[str]:
+    """Return the type names of a solid and of all that it is made of."""
+    return {type_of(node) for node in nodes(solid)}
+
+
+def map_leaves(change: Callable[[Leaf], Leaf], solid: Solid) -> Solid:
+    """Return the same tree with each leaf replaced by what `change` makes of it."""
+    if isinstance(solid, Tree):
+        return type(solid)(tuple(map_leaves(change, part) for part in solid.of))
+    return change(solid)
 
 
 def leaves(solid: Solid, path: str = "") -> Iterator[tuple[str, Leaf]]:

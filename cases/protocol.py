@@ -15,9 +15,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from cases.formats import BINARY64, FORMATS, SPELLINGS, Format, Spelling, parse, spell
-from cases.lines import question
-from cases.model import SOLIDS, Ray, Solid
+from raycert.cases.formats import BINARY64, FORMATS, SPELLINGS, Format, Spelling, parse, spell
+from raycert.cases.lines import question
+from raycert.cases.model import SOLIDS, Ray, Solid
 
 VERSION = 1
 Answers = Literal["intervals", "first", "any"]

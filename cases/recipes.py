@@ -11,8 +11,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from math import frexp, hypot, ldexp
 
-from cases.formats import BINARY64, Format
-from cases.model import (
+from raycert.cases.formats import BINARY64, Format
+from raycert.cases.model import (
     Cylinder,
     Difference,
     HalfSpace,

@@ -12,11 +12,11 @@ from math import isnan
 from types import UnionType
 from typing import Any, TypeVar
 
-from cases.accept import Accept, Numbers
-from cases.case import TIERS, Tier
-from cases.formats import Format, parse, spell
-from cases.forms import Json, read_ray, read_solid, write_ray, write_solid
-from cases.model import Ray, Refused, Solid
+from raycert.cases.accept import Accept, Numbers
+from raycert.cases.case import TIERS, Tier
+from raycert.cases.formats import Format, parse, spell
+from raycert.cases.forms import Json, read_ray, read_solid, write_ray, write_solid
+from raycert.cases.model import Ray, Refused, Solid
 
 T = TypeVar("T")
 ACCEPTED = ("sound", "stable")

@@ -28,8 +28,8 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, Literal
 
-from cases.forms import Json, read_solid, write_solid
-from cases.model import Ray, Refused, Solid, Union, Vector, real, vector
+from raycert.cases.forms import Json, read_solid, write_solid
+from raycert.cases.model import Ray, Refused, Solid, Union, Vector, real, vector
 
 Kind = Literal["perspective", "orthographic"]
 EXTENT: dict[str, str] = {"perspective": "fov", "orthographic": "height"}
@@ -38,7 +38,7 @@ LARGEST = 1 << 14
 """The most pixels in a row or a column."""
 FLATTEST = 2.0**-40
 """The least sine of the angle between the line of sight and `up`: below it is only rounding."""
-SHIPPED = files("cases") / "scenes"
+SHIPPED = files("raycert.cases") / "scenes"
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,10 +11,10 @@ from collections.abc import Callable, Iterable
 from math import isnan
 from typing import BinaryIO
 
-from cases.forms import read_ray, read_solid
-from cases.hits import first, hit
-from cases.model import Ray, Refused, Solid
-from cases.protocol import (
+from raycert.cases.forms import read_ray, read_solid
+from raycert.cases.hits import first, hit
+from raycert.cases.model import Ray, Refused, Solid
+from raycert.cases.protocol import (
     BadLine,
     Hello,
     Pairs,

@@ -17,8 +17,8 @@ missed by roundings. No number is so large or small that a sound formula over- o
 Failing scenes shrink to few parts and small integers.
 
 >>> from hypothesis import given, settings
->>> from oracle.trace import trace
->>> from reference.tracer import intersect      # your own comes here
+>>> from raycert.oracle.exact.trace import trace
+>>> from raycert.reference.tracer import intersect      # your own comes here
 >>> @settings(max_examples=50, database=None, derandomize=True)
 ... @given(scenes(kinds=("cylinder", "sphere", "union")))
 ... def test_what_is_missed_is_at_most_touched(scene):
@@ -35,9 +35,9 @@ from functools import cache
 from math import ldexp
 from typing import Any, TypeVar
 
-from cases.formats import BINARY64, Format
-from cases.model import SOLIDS, Leaf, Ray, Solid, Tree, Vector
-from cases.recipes import (
+from raycert.cases.formats import BINARY64, Format
+from raycert.cases.model import SOLIDS, Leaf, Ray, Solid, Tree, Vector
+from raycert.cases.recipes import (
     UNITS,
     Aim,
     Axis,
@@ -57,7 +57,7 @@ try:
     from hypothesis import strategies as st
 except ImportError:
     raise ImportError(
-        'cases.strategies needs Hypothesis: pip install "raycert[test]"', name="hypothesis"
+        'raycert.cases.strategies needs Hypothesis: pip install "raycert[test]"', name="hypothesis"
     ) from None
 
 T = TypeVar("T")

@@ -1,12 +1,12 @@
-"""`python -m reference`: the compact tracer as a server of the line protocol."""
+"""`python -m raycert.reference`: the compact tracer as a server of the line protocol."""
 
 from __future__ import annotations
 
 from importlib.metadata import PackageNotFoundError, version
 
-from cases.protocol import Hello
-from cases.serve import serve
-from reference.tracer import intersect
+from raycert.cases.protocol import Hello
+from raycert.cases.serve import serve
+from raycert.reference.tracer import intersect
 
 
 def hello() -> Hello:

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from math import inf, sqrt
 
-from cases.model import Vector
-from reference.intervals import Pairs
-from reference.vectors import cross, dot, norm
+from raycert.cases.model import Vector
+from raycert.reference.intervals import Pairs
+from raycert.reference.vectors import cross, dot, norm
 
 
 def chord(y: Vector, v: Vector, r: float) -> Pairs:

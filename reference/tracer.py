@@ -11,7 +11,7 @@ from __future__ import annotations
 from math import inf, ldexp
 from typing import NamedTuple
 
-from cases.model import (
+from raycert.cases.model import (
     Cylinder,
     Difference,
     HalfSpace,
@@ -24,9 +24,9 @@ from cases.model import (
     Union,
     Vector,
 )
-from reference.intervals import Pairs, difference, intersection, pair, union
-from reference.quadratic import chord
-from reference.vectors import cross, displacement, dot, exponent, norm, scaled, shift
+from raycert.reference.intervals import Pairs, difference, intersection, pair, union
+from raycert.reference.quadratic import chord
+from raycert.reference.vectors import cross, displacement, dot, exponent, norm, scaled, shift
 
 
 def intersect(solid: Solid, ray: Ray) -> Pairs:

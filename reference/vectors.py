@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from math import frexp, hypot, inf, ldexp
 
-from cases.model import Vector
+from raycert.cases.model import Vector
 
 NOTHING = -1200
 """The exponent of zero: below that of every double."""

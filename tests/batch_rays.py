@@ -8,9 +8,9 @@ from fractions import Fraction
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.formats import BINARY64, Format
-from cases.model import Cylinder, HalfSpace, InfiniteCylinder, Leaf, Slab, Solid, Sphere
-from oracle.batch.trace import Batch, scalar, trace_batch
+from raycert.cases.formats import BINARY64, Format
+from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Leaf, Slab, Solid, Sphere
+from raycert.oracle.batch.trace import Batch, scalar, trace_batch
 
 Floats = NDArray[np.float64]
 Make = Callable[[np.random.Generator], tuple[list[Leaf], Floats, Floats]]

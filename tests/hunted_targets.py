@@ -3,7 +3,7 @@
 import os
 import time
 
-from oracle.zoo.tracer import BASE
+from raycert.oracle.zoo.tracer import BASE
 
 
 def crashing(solid, ray):

@@ -4,7 +4,7 @@ import os
 import signal
 from pathlib import Path
 
-from oracle.hunt.unit import Done, Worst
+from raycert.oracle.hunt.unit import Done, Worst
 
 
 def easy(unit):

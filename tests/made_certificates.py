@@ -5,17 +5,17 @@ from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any
 
-from cases.corpus import Corpus, read_corpus
-from cases.model import Ray, Solid
-from cases.protocol import Hello, Reply
-from cases.row import GoldenRow
-from oracle.certificate import Asked, Left, Ran, certificate
-from oracle.certify import verdict
-from oracle.client.process import Failure
-from oracle.environment import environment
-from oracle.grade import Grade, grade
-from oracle.judge import Level
-from oracle.zoo.catalog import BY_NAME
+from raycert.cases.corpus import Corpus, read_corpus
+from raycert.cases.model import Ray, Solid
+from raycert.cases.protocol import Hello, Reply
+from raycert.cases.row import GoldenRow
+from raycert.oracle.certify.certificate import Asked, Left, Ran, certificate
+from raycert.oracle.certify.environment import environment
+from raycert.oracle.certify.grading import Grade, grade
+from raycert.oracle.certify.verdict import verdict
+from raycert.oracle.client.process import Failure
+from raycert.oracle.judge.levels import Level
+from raycert.oracle.zoo.catalog import BY_NAME
 
 Json = dict[str, Any]
 Outcome = Reply | Failure

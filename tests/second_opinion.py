@@ -18,8 +18,17 @@ from typing import Any
 from mpmath import iv
 from mpmath.libmp import finf, fnan, fninf, to_rational
 
-from cases.formats import Format
-from cases.model import Cylinder, HalfSpace, InfiniteCylinder, Leaf, Ray, Slab, Sphere, Vector
+from raycert.cases.formats import Format
+from raycert.cases.model import (
+    Cylinder,
+    HalfSpace,
+    InfiniteCylinder,
+    Leaf,
+    Ray,
+    Slab,
+    Sphere,
+    Vector,
+)
 
 Approximate = Callable[[], Any]
 """A number as an mpmath interval at the precision of the moment."""

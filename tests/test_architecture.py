@@ -12,9 +12,7 @@ from pathlib import Path
 
 import pytest
 
-import cases
-import oracle
-import reference
+from raycert import cases, oracle, reference
 
 PACKAGES = {"cases": cases, "oracle": oracle, "reference": reference}
 MAY_IMPORT = {
@@ -42,12 +40,12 @@ HEAVY = {
 MAY_LOAD = (
     "oracle/witness/",
     "oracle/batch/",
-    "oracle/methods/vector/",
+    "oracle/measure/",
     "oracle/plots/",
-    "reference/batch/",
+    "reference/arrays/",
 )
 """The packages that exist to use a heavy one: their modules may load it at their top."""
-NAMED = ("oracle/pytest_plugin.py",)
+NAMED = ("oracle/commands/pytest_plugin.py",)
 """Modules that nobody but the program that they plug into imports."""
 LONGEST_MODULE, LONGEST_FUNCTION = 300, 40
 
@@ -84,9 +82,13 @@ each = pytest.mark.parametrize("source", SOURCES, ids=lambda source: source.path
 def imported(node: ast.AST) -> Iterator[str]:
     """Yield the top names that an import statement names."""
     if isinstance(node, ast.Import):
-        yield from (alias.name.partition(".")[0] for alias in node.names)
+        yield from (alias.name.removeprefix("raycert.").partition(".")[0] for alias in node.names)
     elif isinstance(node, ast.ImportFrom):
-        yield (node.module or "").partition(".")[0] if not node.level else "."
+        yield (
+            (node.module or "").removeprefix("raycert.").partition(".")[0]
+            if not node.level
+            else "."
+        )
 
 
 def wrong_directions(source: Source) -> list[str]:
@@ -177,14 +179,14 @@ def loaded_by(modules: list[str]) -> set[str]:
 def test_nothing_but_what_is_made_for_it_loads_a_heavy_package() -> None:
     """Over all imports of imports: what the rule on single modules cannot see."""
     modules = [
-        source.path.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
+        "raycert." + source.path.removesuffix(".py").removesuffix("/__init__").replace("/", ".")
         for source in SOURCES
         if not source.path.startswith(MAY_LOAD)
         and source.path not in NAMED
         and not source.path.endswith("__main__.py")
     ]
     assert loaded_by(modules) == set()
-    assert loaded_by(["oracle.witness.enclosure"]) == {"mpmath"}
+    assert loaded_by(["raycert.oracle.witness.enclosure"]) == {"mpmath"}
 
 
 LONG = "def f():\n" + "    pass\n" * LONGEST_FUNCTION

@@ -10,9 +10,7 @@ from types import ModuleType
 
 import pytest
 
-import cases
-import oracle
-import reference
+from raycert import cases, oracle, reference
 
 LEAST = 8
 """How many examples there are at least: none found would prove nothing."""

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from cases.case import TIERS, Case, Family
-from cases.formats import FORMATS, Format
-from cases.forms import read_ray, read_solid, write_ray, write_solid
-from cases.model import Refused
+from raycert.cases.case import TIERS, Case, Family
+from raycert.cases.formats import FORMATS, Format
+from raycert.cases.forms import read_ray, read_solid, write_ray, write_solid
+from raycert.cases.model import Refused
 
 FOLDER = Path(__file__).parents[1] / "adopted"
 REASON = "Cases that implementations were found to answer wrong, kept as they were found."

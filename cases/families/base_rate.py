@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.dice import Dice
-from cases.families.frames import Exact
-from cases.families.sketch import Body, plus, row
-from cases.formats import Format
+from raycert.cases.case import Case, Family
+from raycert.cases.dice import Dice
+from raycert.cases.families.frames import Exact
+from raycert.cases.families.sketch import Body, plus, row
+from raycert.cases.formats import Format
 
 COUNT = 40
 """Rays for each solid."""

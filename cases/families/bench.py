@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
-from cases.case import Case, Tier
-from cases.families.frames import Exact, Frame, frames_for
-from cases.families.shapes import Node, one_frame, scene
-from cases.families.sketch import Pairs
-from cases.formats import Format
+from raycert.cases.case import Case, Tier
+from raycert.cases.families.frames import Exact, Frame, frames_for
+from raycert.cases.families.shapes import Node, one_frame, scene
+from raycert.cases.families.sketch import Pairs
+from raycert.cases.formats import Format
 
 
 @dataclass(frozen=True, slots=True)

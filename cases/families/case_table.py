@@ -11,11 +11,11 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.frames import Number, frames_for
-from cases.families.sketch import ALWAYS, MISS, Pairs, cylinder, pair, row
-from cases.formats import Format
-from cases.table import PROBLEM_1, comparison_names
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import Number, frames_for
+from raycert.cases.families.sketch import ALWAYS, MISS, Pairs, cylinder, pair, row
+from raycert.cases.formats import Format
+from raycert.cases.table import PROBLEM_1, comparison_names
 
 Span = tuple[Number, Number | None]
 

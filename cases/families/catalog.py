@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from cases.case import Family
-from cases.families import (
+from raycert.cases.case import Family
+from raycert.cases.families import (
     adopted,
     base_rate,
     case_table,

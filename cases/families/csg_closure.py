@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from itertools import permutations
 
-from cases.case import Case, Family
-from cases.dice import Dice
-from cases.families.frames import SEVENTHS, UPRIGHT
-from cases.families.shapes import Node, Shape, all_of, any_of, less, one_frame, scene, spans
-from cases.families.sketch import ALWAYS, MISS, Pairs, pair, touch
-from cases.families.stretches import (
+from raycert.cases.case import Case, Family
+from raycert.cases.dice import Dice
+from raycert.cases.families.frames import SEVENTHS, UPRIGHT
+from raycert.cases.families.shapes import Node, Shape, all_of, any_of, less, one_frame, scene, spans
+from raycert.cases.families.sketch import ALWAYS, MISS, Pairs, pair, touch
+from raycert.cases.families.stretches import (
     AHEAD,
     START,
     STYLES,
@@ -23,7 +23,7 @@ from cases.families.stretches import (
     placed,
     u,
 )
-from cases.formats import Format
+from raycert.cases.formats import Format
 
 CLOSURE = ("closure",)
 TOUCHING = ("touching-parts",)

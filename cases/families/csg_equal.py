@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.frames import ON_Y, SEVENTHS, UPRIGHT, Exact, Frame, Number, frames_for
-from cases.families.ladders import gaps, is_double, power
-from cases.families.shapes import (
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import ON_Y, SEVENTHS, UPRIGHT, Exact, Frame, Number, frames_for
+from raycert.cases.families.ladders import gaps, is_double, power
+from raycert.cases.families.shapes import (
     MAKE,
     Shape,
     all_of,
@@ -22,8 +22,8 @@ from cases.families.shapes import (
     scene,
     spans,
 )
-from cases.families.sketch import MISS, Pairs, pair, touch, two
-from cases.formats import Format
+from raycert.cases.families.sketch import MISS, Pairs, pair, touch, two
+from raycert.cases.formats import Format
 
 ALONG: Exact = (-8, 0, 0)
 AHEAD: Exact = (4, 0, 0)

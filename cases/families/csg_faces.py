@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from cases.case import Family
-from cases.families.bench import Bench, Shot, shoot, shoot_once
-from cases.families.frames import Exact
-from cases.families.shapes import (
+from raycert.cases.case import Family
+from raycert.cases.families.bench import Bench, Shot, shoot, shoot_once
+from raycert.cases.families.frames import Exact
+from raycert.cases.families.shapes import (
     Node,
     Shape,
     all_of,
@@ -18,7 +18,7 @@ from cases.families.shapes import (
     rod,
     spans,
 )
-from cases.families.sketch import ALWAYS, MISS, Pairs, pair, touch
+from raycert.cases.families.sketch import ALWAYS, MISS, Pairs, pair, touch
 
 SHARED = ("coincident-faces",)
 TOUCHING = ("touching-parts",)

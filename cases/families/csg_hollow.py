@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cases.case import Family
-from cases.families.bench import Bench, Shot, shoot, shoot_once
-from cases.families.shapes import (
+from raycert.cases.case import Family
+from raycert.cases.families.bench import Bench, Shot, shoot, shoot_once
+from raycert.cases.families.shapes import (
     Node,
     Shape,
     all_of,
@@ -19,7 +19,7 @@ from cases.families.shapes import (
     rod,
     spans,
 )
-from cases.families.sketch import ALWAYS, MISS, Pairs, pair, touch
+from raycert.cases.families.sketch import ALWAYS, MISS, Pairs, pair, touch
 
 HOLLOW = ("hollow",)
 RING = ("hollow", "coincident-faces")

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cases.case import Case, Family
-from cases.families.bench import Bench, Shot, shoot_once
-from cases.families.frames import Number, frames_for
-from cases.families.shapes import (
+from raycert.cases.case import Case, Family
+from raycert.cases.families.bench import Bench, Shot, shoot_once
+from raycert.cases.families.frames import Number, frames_for
+from raycert.cases.families.shapes import (
     Node,
     Shape,
     all_of,
@@ -22,9 +22,9 @@ from cases.families.shapes import (
     scene,
     spans,
 )
-from cases.families.sketch import ALWAYS, MISS, Pairs, pair, touch
-from cases.families.stretches import AHEAD, START, WHOLE, Rule, d, n, placed, u
-from cases.formats import Format
+from raycert.cases.families.sketch import ALWAYS, MISS, Pairs, pair, touch
+from raycert.cases.families.stretches import AHEAD, START, WHOLE, Rule, d, n, placed, u
+from raycert.cases.formats import Format
 
 MANY = ("many-intervals",)
 COUNTS = (3, 4, 6, 8)

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.dice import Dice
-from cases.families.base_rate import exactly
-from cases.families.frames import Exact
-from cases.families.shapes import (
+from raycert.cases.case import Case, Family
+from raycert.cases.dice import Dice
+from raycert.cases.families.base_rate import exactly
+from raycert.cases.families.frames import Exact
+from raycert.cases.families.shapes import (
     MAKE,
     Ball,
     Boolean,
@@ -22,8 +22,8 @@ from cases.families.shapes import (
     rod,
     scene,
 )
-from cases.families.sketch import Body, plus
-from cases.formats import Format
+from raycert.cases.families.sketch import Body, plus
+from raycert.cases.formats import Format
 
 KINDS: tuple[Boolean, ...] = ("union", "intersection", "difference")
 AXES: tuple[Exact, ...] = ((4, 0, 0), (0, 4, 0), (0, 0, 4), (-2, 0, 0), (0, -2, 0), (0, 0, -2))

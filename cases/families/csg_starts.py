@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.csg_faces import drum
-from cases.families.frames import SEVENTHS, UPRIGHT, Exact, frames_for
-from cases.families.ladders import depths
-from cases.families.shapes import Node, all_of, any_of, ball, less, one_frame, scene, spans
-from cases.families.sketch import ALWAYS, MISS, Pairs, near, pair, touch
-from cases.families.stretches import Rule, d, n, placed, u
-from cases.formats import Format
+from raycert.cases.case import Case, Family
+from raycert.cases.families.csg_faces import drum
+from raycert.cases.families.frames import SEVENTHS, UPRIGHT, Exact, frames_for
+from raycert.cases.families.ladders import depths
+from raycert.cases.families.shapes import Node, all_of, any_of, ball, less, one_frame, scene, spans
+from raycert.cases.families.sketch import ALWAYS, MISS, Pairs, near, pair, touch
+from raycert.cases.families.stretches import Rule, d, n, placed, u
+from raycert.cases.formats import Format
 
 CLIPPED = (
     Rule("all-behind", "[-4,-2] u [-3,-1]", u((-4, -2), (-3, -1)), MISS, ("behind",)),

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.frames import SEVENTHS, THIRDS, UPRIGHT, Exact, Frame
-from cases.families.ladders import decades, depths, power, scales
-from cases.families.scale import range_exponents, slower
-from cases.families.shapes import (
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import SEVENTHS, THIRDS, UPRIGHT, Exact, Frame
+from raycert.cases.families.ladders import decades, depths, power, scales
+from raycert.cases.families.scale import range_exponents, slower
+from raycert.cases.families.shapes import (
     Node,
     all_of,
     any_of,
@@ -22,9 +22,9 @@ from cases.families.shapes import (
     scene,
     spans,
 )
-from cases.families.sketch import Pairs, pair, plus, ten, times, touch, two
-from cases.families.stretches import shifted_from
-from cases.formats import Format
+from raycert.cases.families.sketch import Pairs, pair, plus, ten, times, touch, two
+from raycert.cases.families.stretches import shifted_from
+from raycert.cases.formats import Format
 
 Z8: tuple[Exact, Exact] = ((0, 0, -8), (0, 0, 8))
 TUBE = less(rod(*Z8, 5), rod(*Z8, 3))

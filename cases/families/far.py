@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.frames import SEVENTHS, THIRDS, UPRIGHT, Exact, Frame
-from cases.families.ladders import decades
-from cases.families.sketch import (
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import SEVENTHS, THIRDS, UPRIGHT, Exact, Frame
+from raycert.cases.families.ladders import decades
+from raycert.cases.families.sketch import (
     MISS,
     Body,
     Pairs,
@@ -28,7 +28,7 @@ from cases.families.sketch import (
     tube,
     two,
 )
-from cases.formats import Format
+from raycert.cases.formats import Format
 
 DRUM = cylinder(1, 4)
 CENTRE: Exact = (0, 0, 2)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from cases.dice import Dice
+from raycert.cases.dice import Dice
 
 Number = int | Fraction
 Exact = tuple[Number, Number, Number]

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cases.case import Case, Family
-from cases.families.case_table import MISSES, STILL, Across, chord, diameter, graze
-from cases.families.frames import frames_for
-from cases.families.sketch import MISS, row, tube
-from cases.formats import Format
+from raycert.cases.case import Case, Family
+from raycert.cases.families.case_table import MISSES, STILL, Across, chord, diameter, graze
+from raycert.cases.families.frames import frames_for
+from raycert.cases.families.sketch import MISS, row, tube
+from raycert.cases.formats import Format
 
 SPANS = {
     "ahead": (1, 3),

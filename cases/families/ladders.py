@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.families.sketch import near, ten
-from cases.formats import BINARY64, Format
+from raycert.cases.families.sketch import near, ten
+from raycert.cases.formats import BINARY64, Format
 
 
 def is_double(fmt: Format) -> bool:

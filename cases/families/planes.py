@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.frames import SEVENTHS, UPRIGHT, Frame, Number, frames_for
-from cases.families.ladders import slopes
-from cases.families.sketch import (
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import SEVENTHS, UPRIGHT, Frame, Number, frames_for
+from raycert.cases.families.ladders import slopes
+from raycert.cases.families.sketch import (
     ALWAYS,
     MISS,
     Body,
@@ -20,7 +20,7 @@ from cases.families.sketch import (
     row,
     slab,
 )
-from cases.formats import Format
+from raycert.cases.formats import Format
 
 HEIGHT = 8
 SLANTS = {"straight": (0, "straight"), "slanted": (3, "with a part along the plane")}

@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from cases.case import Case, Tier
-from cases.families.frames import UPRIGHT, Exact, Frame
-from cases.families.ladders import is_double
-from cases.families.sketch import Body, Pairs, row
-from cases.formats import Format
+from raycert.cases.case import Case, Tier
+from raycert.cases.families.frames import UPRIGHT, Exact, Frame
+from raycert.cases.families.ladders import is_double
+from raycert.cases.families.sketch import Body, Pairs, row
+from raycert.cases.formats import Format
 
 GIVEN = ""
 """What is ours in a scene that the report gives whole."""

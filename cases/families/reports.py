@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cases.case import Case, Family
-from cases.families import reports_measured, reports_parallel, reports_scale, reports_touch
-from cases.formats import Format
+from raycert.cases.case import Case, Family
+from raycert.cases.families import reports_measured, reports_parallel, reports_scale, reports_touch
+from raycert.cases.formats import Format
 
 REPORTS = (
     *reports_parallel.REPORTS,

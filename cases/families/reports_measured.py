@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from cases.families.frames import ON_Y, SEVENTHS
-from cases.families.report import GIVEN, Report, at, number
-from cases.families.sketch import MISS, cylinder, near, pair, touch, two
-from cases.formats import BINARY64
+from raycert.cases.families.frames import ON_Y, SEVENTHS
+from raycert.cases.families.report import GIVEN, Report, at, number
+from raycert.cases.families.sketch import MISS, cylinder, near, pair, touch, two
+from raycert.cases.formats import BINARY64
 
 BODY = cylinder(1, 4, -2)
 ALL = "raysect 0.9.1, MuJoCo 4.0.0, Geant4 11.4.p01, Bullet 3.2.7"

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from cases.families.frames import ON_X, ON_Y, UPRIGHT, Frame
-from cases.families.report import GIVEN, NUMBERS, Report, at, number
-from cases.families.sketch import ALWAYS, MISS, Body, cylinder, pair, tube
+from raycert.cases.families.frames import ON_X, ON_Y, UPRIGHT, Frame
+from raycert.cases.families.report import GIVEN, NUMBERS, Report, at, number
+from raycert.cases.families.sketch import ALWAYS, MISS, Body, cylinder, pair, tube
 
 BEPU = cylinder(3, 4, -2)
 UPRIGHT_Y = Frame("", "", ON_Y.lateral, ON_Y.across, ON_Y.axis)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from cases.families.frames import ON_X, ON_Y, THIRDS
-from cases.families.report import GIVEN, NUMBERS, Report, at, number
-from cases.families.sketch import ALWAYS, Body, cylinder, pair, slab, touch, tube
+from raycert.cases.families.frames import ON_X, ON_Y, THIRDS
+from raycert.cases.families.report import GIVEN, NUMBERS, Report, at, number
+from raycert.cases.families.sketch import ALWAYS, Body, cylinder, pair, slab, touch, tube
 
 HALF = Fraction(1, 2)
 CAN = cylinder(HALF, 2)

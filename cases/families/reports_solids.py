@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from cases.case import Case, Family, Tier
-from cases.families.csg_faces import drum
-from cases.families.frames import SEVENTHS, THIRDS, UPRIGHT, Exact, Frame
-from cases.families.ladders import is_double
-from cases.families.report import NUMBERS, at, number
-from cases.families.shapes import (
+from raycert.cases.case import Case, Family, Tier
+from raycert.cases.families.csg_faces import drum
+from raycert.cases.families.frames import SEVENTHS, THIRDS, UPRIGHT, Exact, Frame
+from raycert.cases.families.ladders import is_double
+from raycert.cases.families.report import NUMBERS, at, number
+from raycert.cases.families.shapes import (
     Shape,
     all_of,
     any_of,
@@ -24,8 +24,8 @@ from cases.families.shapes import (
     scene,
     spans,
 )
-from cases.families.sketch import MISS, Pairs, pair, ten, touch, two
-from cases.formats import Format
+from raycert.cases.families.sketch import MISS, Pairs, pair, ten, touch, two
+from raycert.cases.formats import Format
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,9 +4,19 @@ from __future__ import annotations
 
 from fractions import Fraction
 
-from cases.families.frames import ELEVENTHS, SEVENTHS, UPRIGHT, Exact
-from cases.families.report import NUMBERS, Report, at, number
-from cases.families.sketch import MISS, Body, cylinder, half_space, pair, slab, touch, tube, two
+from raycert.cases.families.frames import ELEVENTHS, SEVENTHS, UPRIGHT, Exact
+from raycert.cases.families.report import NUMBERS, Report, at, number
+from raycert.cases.families.sketch import (
+    MISS,
+    Body,
+    cylinder,
+    half_space,
+    pair,
+    slab,
+    touch,
+    tube,
+    two,
+)
 
 TUBE = cylinder(5, 20, -10)
 DRUM = cylinder(4, 8)

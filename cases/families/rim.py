@@ -6,11 +6,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.frames import ALIGNED, DOWN_X, NINTHS, UPRIGHT, Exact, Number, frames_for
-from cases.families.ladders import gaps, power
-from cases.families.sketch import MISS, Pairs, cylinder, pair, plus, row, touch, two
-from cases.formats import Format
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import (
+    ALIGNED,
+    DOWN_X,
+    NINTHS,
+    UPRIGHT,
+    Exact,
+    Number,
+    frames_for,
+)
+from raycert.cases.families.ladders import gaps, power
+from raycert.cases.families.sketch import MISS, Pairs, cylinder, pair, plus, row, touch, two
+from raycert.cases.formats import Format
 
 
 @dataclass(frozen=True, slots=True)

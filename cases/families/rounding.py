@@ -9,20 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cases.case import Case, Family
-from cases.families.frames import DOWN_X, ON_Y, UPRIGHT, Exact, Number
-from cases.families.ladders import is_double, power
-from cases.families.sketch import (
-    Body,
-    cylinder,
-    half_space,
-    pair,
-    row,
-    slab,
-    tube,
-    two,
-)
-from cases.formats import BINARY32, Format
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import DOWN_X, ON_Y, UPRIGHT, Exact, Number
+from raycert.cases.families.ladders import is_double, power
+from raycert.cases.families.sketch import Body, cylinder, half_space, pair, row, slab, tube, two
+from raycert.cases.formats import BINARY32, Format
 
 START = 6
 """x0: with a radius just above 1 the endpoints lie just above 5 and 7."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family, Tier
-from cases.families.frames import SEVENTHS, UPRIGHT, Exact, Frame
-from cases.families.ladders import is_double, power, scales
-from cases.families.sketch import (
+from raycert.cases.case import Case, Family, Tier
+from raycert.cases.families.frames import SEVENTHS, UPRIGHT, Exact, Frame
+from raycert.cases.families.ladders import is_double, power, scales
+from raycert.cases.families.sketch import (
     MISS,
     Body,
     Pairs,
@@ -22,7 +22,7 @@ from cases.families.sketch import (
     tube,
     two,
 )
-from cases.formats import Format
+from raycert.cases.formats import Format
 
 Scene = tuple[str, str, Body, Exact, Exact, Pairs, Frame]
 SCENES: tuple[Scene, ...] = (

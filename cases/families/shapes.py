@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Literal
 
-from cases.case import Case, Tier
-from cases.dice import Dice
-from cases.families.frames import UPRIGHT, Exact, Frame, Number, frames_for
-from cases.families.sketch import Body, LeafPen, Pairs, plus
-from cases.formats import Format
-from cases.lattice import is_lattice
-from cases.model import Difference, Intersection, Ray, Solid, Sphere, Union
+from raycert.cases.case import Case, Tier
+from raycert.cases.dice import Dice
+from raycert.cases.families.frames import UPRIGHT, Exact, Frame, Number, frames_for
+from raycert.cases.families.sketch import Body, LeafPen, Pairs, plus
+from raycert.cases.formats import Format
+from raycert.cases.lattice import is_lattice
+from raycert.cases.model import Difference, Intersection, Ray, Solid, Sphere, Union
 
 Boolean = Literal["union", "intersection", "difference"]
 

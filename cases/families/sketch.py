@@ -9,11 +9,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from fractions import Fraction
 
-from cases.case import Case, KnownEnd, Tier
-from cases.families.frames import UPRIGHT, Exact, Frame, Number
-from cases.formats import Format
-from cases.lattice import is_lattice
-from cases.model import Cylinder, HalfSpace, InfiniteCylinder, Ray, Slab, Solid, Vector
+from raycert.cases.case import Case, KnownEnd, Tier
+from raycert.cases.families.frames import UPRIGHT, Exact, Frame, Number
+from raycert.cases.formats import Format
+from raycert.cases.lattice import is_lattice
+from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Ray, Slab, Solid, Vector
 
 Pairs = tuple[tuple[KnownEnd, KnownEnd], ...]
 MISS: Pairs = ()

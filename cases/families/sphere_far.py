@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.frames import SEVENTHS, THIRDS, UPRIGHT, Exact, Frame, Number
-from cases.families.ladders import decades
-from cases.families.shapes import Ball, ball, scene
-from cases.families.sketch import MISS, Pairs, near, pair, plus, ten, times, touch, two
-from cases.formats import Format
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import SEVENTHS, THIRDS, UPRIGHT, Exact, Frame, Number
+from raycert.cases.families.ladders import decades
+from raycert.cases.families.shapes import Ball, ball, scene
+from raycert.cases.families.sketch import MISS, Pairs, near, pair, plus, ten, times, touch, two
+from raycert.cases.formats import Format
 
 QUARTER = Fraction(1, 4)
 Aim = tuple[str, str, Ball, Exact, Exact, tuple[Number, Number], Frame]

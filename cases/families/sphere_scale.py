@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family, Tier
-from cases.dice import Dice
-from cases.families.base_rate import COUNT, exactly
-from cases.families.frames import DOWN_Z, ON_Y, SEVENTHS, UPRIGHT, Exact, Frame
-from cases.families.ladders import is_double, power, scales
-from cases.families.rounding import NEIGHBOURS, START, half_unit, shifts
-from cases.families.scale import range_exponents, slower
-from cases.families.shapes import Ball, ball, scene
-from cases.families.sketch import MISS, Pairs, pair, plus, times, touch, two
-from cases.formats import BINARY32, Format
+from raycert.cases.case import Case, Family, Tier
+from raycert.cases.dice import Dice
+from raycert.cases.families.base_rate import COUNT, exactly
+from raycert.cases.families.frames import DOWN_Z, ON_Y, SEVENTHS, UPRIGHT, Exact, Frame
+from raycert.cases.families.ladders import is_double, power, scales
+from raycert.cases.families.rounding import NEIGHBOURS, START, half_unit, shifts
+from raycert.cases.families.scale import range_exponents, slower
+from raycert.cases.families.shapes import Ball, ball, scene
+from raycert.cases.families.sketch import MISS, Pairs, pair, plus, times, touch, two
+from raycert.cases.formats import BINARY32, Format
 
 Scene = tuple[str, str, Ball, Exact, Exact, Pairs, Frame]
 SCENES: tuple[Scene, ...] = (

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.frames import SEVENTHS, UPRIGHT, Exact, Frame, frames_for
-from cases.families.ladders import decades, depths
-from cases.families.shapes import Ball, ball, scene
-from cases.families.sketch import ALWAYS, MISS, Pairs, near, pair, ten, touch
-from cases.families.zero import triple
-from cases.formats import Format
-from cases.lattice import is_lattice
-from cases.model import Ray, Sphere
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import SEVENTHS, UPRIGHT, Exact, Frame, frames_for
+from raycert.cases.families.ladders import decades, depths
+from raycert.cases.families.shapes import Ball, ball, scene
+from raycert.cases.families.sketch import ALWAYS, MISS, Pairs, near, pair, ten, touch
+from raycert.cases.families.zero import triple
+from raycert.cases.formats import Format
+from raycert.cases.lattice import is_lattice
+from raycert.cases.model import Ray, Sphere
 
 ROUND, THREE, FIVE, SEVEN = ball(4), ball(3), ball(5), ball(7)
 OUT = touch(0)

@@ -5,14 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.case_table import chord, diameter
-from cases.families.frames import ALIGNED, FIFTHS, SEVENTHS, UPRIGHT, Exact, Frame, frames_for
-from cases.families.infinite import SPANS, TOUCHES
-from cases.families.ladders import gaps, power
-from cases.families.shapes import Ball, ball, scene
-from cases.families.sketch import ALWAYS, MISS, Pairs, pair, plus, times, touch, two
-from cases.formats import Format
+from raycert.cases.case import Case, Family
+from raycert.cases.families.case_table import chord, diameter
+from raycert.cases.families.frames import (
+    ALIGNED,
+    FIFTHS,
+    SEVENTHS,
+    UPRIGHT,
+    Exact,
+    Frame,
+    frames_for,
+)
+from raycert.cases.families.infinite import SPANS, TOUCHES
+from raycert.cases.families.ladders import gaps, power
+from raycert.cases.families.shapes import Ball, ball, scene
+from raycert.cases.families.sketch import ALWAYS, MISS, Pairs, pair, plus, times, touch, two
+from raycert.cases.formats import Format
 
 RESTS: tuple[tuple[str, str, Ball, Exact, bool], ...] = (
     ("centre", "at the centre of a sphere", ball(4), (0, 0, 0), True),

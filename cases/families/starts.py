@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.frames import ALIGNED, SEVENTHS, UPRIGHT, Exact, Frame, frames_for
-from cases.families.ladders import depths
-from cases.families.sketch import (
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import ALIGNED, SEVENTHS, UPRIGHT, Exact, Frame, frames_for
+from raycert.cases.families.ladders import depths
+from raycert.cases.families.sketch import (
     MISS,
     Body,
     Pairs,
@@ -22,7 +22,7 @@ from cases.families.sketch import (
     touch,
     tube,
 )
-from cases.formats import Format
+from raycert.cases.formats import Format
 
 DRUM = cylinder(4, 8)
 WIDE = cylinder(5, 8)

@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from cases.case import Case
-from cases.dice import Dice
-from cases.families.frames import Exact, Frame, Number, frames_for
-from cases.families.shapes import (
+from raycert.cases.case import Case
+from raycert.cases.dice import Dice
+from raycert.cases.families.frames import Exact, Frame, Number, frames_for
+from raycert.cases.families.shapes import (
     MAKE,
     Boolean,
     Shape,
@@ -26,8 +26,8 @@ from cases.families.shapes import (
     rod,
     scene,
 )
-from cases.families.sketch import Pairs
-from cases.formats import Format
+from raycert.cases.families.sketch import Pairs
+from raycert.cases.formats import Format
 
 SPEED = 4
 START: Exact = (0, 0, 0)

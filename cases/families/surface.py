@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cases.case import Case, Family
-from cases.families.frames import UPRIGHT, frames_for
-from cases.families.ladders import gaps, power
-from cases.families.sketch import (
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import UPRIGHT, frames_for
+from raycert.cases.families.ladders import gaps, power
+from raycert.cases.families.sketch import (
     ALWAYS,
     MISS,
     Body,
@@ -21,7 +21,7 @@ from cases.families.sketch import (
     tube,
     two,
 )
-from cases.formats import Format
+from raycert.cases.formats import Format
 
 HEIGHT = 8
 

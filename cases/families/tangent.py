@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.frames import ALIGNED, FIFTHS, UPRIGHT, frames_for
-from cases.families.ladders import gaps, power
-from cases.families.sketch import MISS, Pairs, cylinder, pair, plus, row, touch, tube, two
-from cases.formats import Format
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import ALIGNED, FIFTHS, UPRIGHT, frames_for
+from raycert.cases.families.ladders import gaps, power
+from raycert.cases.families.sketch import MISS, Pairs, cylinder, pair, plus, row, touch, tube, two
+from raycert.cases.formats import Format
 
 CONTACTS = ((3, 4, 5), (5, 12, 13), (8, 15, 17), (7, 24, 25))
 """Pythagorean points (x, y) of touch on circles of a whole radius."""

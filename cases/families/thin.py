@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.frames import SEVENTHS, UPRIGHT, Exact, Frame, Number
-from cases.families.ladders import decades
-from cases.families.sketch import Pairs, cylinder, near, pair, row, ten, two
-from cases.formats import Format
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import SEVENTHS, UPRIGHT, Exact, Frame, Number
+from raycert.cases.families.ladders import decades
+from raycert.cases.families.sketch import Pairs, cylinder, near, pair, row, ten, two
+from raycert.cases.formats import Format
 
 HALF, QUARTER = Fraction(1, 2), Fraction(1, 4)
 Shot = tuple[str, str, Exact, Exact, Pairs | None]

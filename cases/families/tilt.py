@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from cases.case import Case, Family
-from cases.families.frames import SEVENTHS, THIRDS, Exact, Number
-from cases.families.ladders import slopes
-from cases.families.sketch import MISS, Body, Pairs, cylinder, near, pair, plus, row, tube
-from cases.formats import Format
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import SEVENTHS, THIRDS, Exact, Number
+from raycert.cases.families.ladders import slopes
+from raycert.cases.families.sketch import MISS, Body, Pairs, cylinder, near, pair, plus, row, tube
+from raycert.cases.formats import Format
 
 Leaning = tuple[str, str, Body, Exact, Exact, Pairs | None]
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from cases.case import Case, Family
-from cases.families.frames import Exact, frames_for
-from cases.families.ladders import decades
-from cases.families.sketch import (
+from raycert.cases.case import Case, Family
+from raycert.cases.families.frames import Exact, frames_for
+from raycert.cases.families.ladders import decades
+from raycert.cases.families.sketch import (
     ALWAYS,
     MISS,
     Body,
@@ -22,9 +22,9 @@ from cases.families.sketch import (
     touch,
     tube,
 )
-from cases.formats import Format
-from cases.lattice import is_lattice
-from cases.model import Cylinder, HalfSpace, InfiniteCylinder, Ray, Slab, Solid, Vector
+from raycert.cases.formats import Format
+from raycert.cases.lattice import is_lattice
+from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Ray, Slab, Solid, Vector
 
 DRUM, WIDE = cylinder(4, 8), cylinder(5, 8)
 

@@ -13,8 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.model import Difference, Intersection, Tree, Union
-from oracle.batch.lanes import Floats, Mask
+from raycert.cases.model import Difference, Intersection, Tree, Union
+from raycert.oracle.batch.lanes import Floats, Mask
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,12 +16,12 @@ from dataclasses import dataclass, field
 import click
 import numpy as np
 
-from cases.corpus import read_corpus
-from cases.formats import BINARY32, FORMATS, Format
-from cases.model import HalfSpace, Ray, Refused, Solid, leaves
-from oracle.batch.lanes import Floats
-from oracle.batch.trace import Batch, scalar, trace_batch
-from oracle.grid import lengths
+from raycert.cases.corpus import read_corpus
+from raycert.cases.formats import BINARY32, FORMATS, Format
+from raycert.cases.model import HalfSpace, Ray, Refused, Solid, leaves
+from raycert.oracle.batch.lanes import Floats
+from raycert.oracle.batch.trace import Batch, scalar, trace_batch
+from raycert.oracle.exact.grid import lengths
 
 LARGEST = 2.0**1000
 """Numbers are drawn again that a step takes beyond it."""

@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from oracle.batch.arithmetic import choose, size, two_sum
-from oracle.batch.decide import (
+from raycert.oracle.batch.arithmetic import choose, size, two_sum
+from raycert.oracle.batch.decide import (
     LEAST,
     MOST,
     behind_ball,
@@ -26,7 +26,7 @@ from oracle.batch.decide import (
     passed_slab,
     slab,
 )
-from oracle.batch.formulas import ball, gap_ball, gap_wall, wall
+from raycert.oracle.batch.formulas import ball, gap_ball, gap_wall, wall
 
 WIDTH = 128
 ROWS = 24

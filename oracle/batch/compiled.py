@@ -17,9 +17,9 @@ from typing import Any
 
 import numpy as np
 
-from oracle.batch import arithmetic, bounds, chunks, decide, formulas, probe
-from oracle.batch.lanes import UNSURE, Floats, Found
-from oracle.batch.plan import BALL, CAPPED_BALL, CAPPED_WALL, WALL, Plan
+from raycert.oracle.batch import arithmetic, bounds, chunks, decide, formulas, probe
+from raycert.oracle.batch.lanes import UNSURE, Floats, Found
+from raycert.oracle.batch.plan import BALL, CAPPED_BALL, CAPPED_WALL, WALL, Plan
 
 SOURCES: tuple[ModuleType, ...] = (arithmetic, bounds, formulas, decide, probe, chunks)
 CURVED = {BALL: 1, CAPPED_BALL: 1, WALL: 2, CAPPED_WALL: 2}

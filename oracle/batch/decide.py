@@ -11,9 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from oracle.batch.arithmetic import Number, Singles, Triple, choose, larger, size
-from oracle.batch.bounds import U, cross_bound
-from oracle.batch.formulas import (
+from raycert.oracle.batch.arithmetic import Number, Singles, Triple, choose, larger, size
+from raycert.oracle.batch.bounds import U, cross_bound
+from raycert.oracle.batch.formulas import (
     Bounded2,
     away,
     cross_plain,

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
-from oracle.batch import compiled, vector
-from oracle.batch.lanes import Floats, Found
-from oracle.batch.plan import Plan
-from oracle.batch.trust import untrustworthy
+from raycert.oracle.batch import compiled, vector
+from raycert.oracle.batch.lanes import Floats, Found
+from raycert.oracle.batch.plan import Plan
+from raycert.oracle.batch.trust import untrustworthy
 
 LeafBlock = Callable[[Plan, Floats], Found]
 ENGINES = ("auto", "numpy", "numba")

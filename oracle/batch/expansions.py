@@ -10,8 +10,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from oracle.batch.arithmetic import Number, Pair, Singles, Triple, two_prod, two_sum
-from oracle.batch.lanes import Mask
+from raycert.oracle.batch.arithmetic import Number, Pair, Singles, Triple, two_prod, two_sum
+from raycert.oracle.batch.lanes import Mask
 
 Terms = list[Number]
 

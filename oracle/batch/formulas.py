@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from oracle.batch.arithmetic import (
+from raycert.oracle.batch.arithmetic import (
     Number,
     Pair,
     Singles,
@@ -37,7 +37,7 @@ from oracle.batch.arithmetic import (
     size,
     sub,
 )
-from oracle.batch.bounds import (
+from raycert.oracle.batch.bounds import (
     ROOT,
     SLACK,
     SMALL,

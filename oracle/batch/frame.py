@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from oracle.batch.arithmetic import Number, Pair, Singles, Triple, heads, size, two_prod
-from oracle.batch.expansions import (
+from raycert.oracle.batch.arithmetic import Number, Pair, Singles, Triple, heads, size, two_prod
+from raycert.oracle.batch.expansions import (
     cross_singles,
     dot_terms,
     paired,
@@ -18,9 +18,9 @@ from oracle.batch.expansions import (
     square_terms,
     vanishes,
 )
-from oracle.batch.lanes import Floats, Lanes, Mask
-from oracle.batch.plan import Plan
-from oracle.batch.vector import offset, speed, tilted
+from raycert.oracle.batch.lanes import Floats, Lanes, Mask
+from raycert.oracle.batch.plan import Plan
+from raycert.oracle.batch.vector import offset, speed, tilted
 
 
 class Frame:

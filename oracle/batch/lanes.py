@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from oracle.batch.decide import LEAST, MOST
-from oracle.batch.plan import Plan
+from raycert.oracle.batch.decide import LEAST, MOST
+from raycert.oracle.batch.plan import Plan
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from oracle.batch.lanes import HIT, KNOWN, UNSURE, Floats, Found, Mask
+from raycert.oracle.batch.lanes import HIT, KNOWN, UNSURE, Floats, Found, Mask
 
 
 def set_aside(found: Found) -> None:

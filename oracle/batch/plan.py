@@ -15,7 +15,7 @@ from math import frexp, inf, isqrt, ldexp
 import numpy as np
 from numpy.typing import NDArray
 
-from cases.model import Cylinder, HalfSpace, InfiniteCylinder, Leaf, Slab, Sphere, Vector
+from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Leaf, Slab, Sphere, Vector
 
 PLANES, BALL, WALL, CAPPED_BALL, CAPPED_WALL = range(5)
 """The kinds of lane: no curved face; a sphere or aligned cylinder; a tilted one; and with caps."""

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from oracle.batch.arithmetic import div, mul, root, two_prod, two_sum
+from raycert.oracle.batch.arithmetic import div, mul, root, two_prod, two_sum
 
 
 def probe(x: Any) -> Any:

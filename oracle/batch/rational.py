@@ -14,18 +14,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from oracle.batch.arithmetic import Number, Triple, heads
-from oracle.batch.decide import FAR, LEAST, MOST, NEAR, joined, settled
-from oracle.batch.expansions import (
-    dot_terms,
-    paired,
-    vanishes,
-)
-from oracle.batch.formulas import Bounded2, away, ball, divisor, ends, plane, ratio, wall
-from oracle.batch.frame import Frame, constants, on_plane, taken
-from oracle.batch.lanes import HIT, KNOWN, MISS, RATIONAL, Floats, Found, Lanes, Mask
-from oracle.batch.plan import PLANES, Plan
-from oracle.batch.vector import ALL, offset, tilted
+from raycert.oracle.batch.arithmetic import Number, Triple, heads
+from raycert.oracle.batch.decide import FAR, LEAST, MOST, NEAR, joined, settled
+from raycert.oracle.batch.expansions import dot_terms, paired, vanishes
+from raycert.oracle.batch.formulas import Bounded2, away, ball, divisor, ends, plane, ratio, wall
+from raycert.oracle.batch.frame import Frame, constants, on_plane, taken
+from raycert.oracle.batch.lanes import HIT, KNOWN, MISS, RATIONAL, Floats, Found, Lanes, Mask
+from raycert.oracle.batch.plan import PLANES, Plan
+from raycert.oracle.batch.vector import ALL, offset, tilted
 
 OPEN = 2
 """A sign that is not known."""

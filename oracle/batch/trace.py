@@ -13,17 +13,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from cases.accept import Numbers
-from cases.formats import BINARY32, BINARY64, Format
-from cases.model import Leaf, Ray, Refused, Solid, Tree, leaves
-from oracle.batch.booleans import Lists, combine
-from oracle.batch.engines import Engine, engine_of
-from oracle.batch.lanes import HIT, INTEGER, RUNGS, UNSURE, Codes, Floats, Found, Lanes
-from oracle.batch.narrow import narrowed, set_aside
-from oracle.batch.plan import Plan, plan
-from oracle.batch.rational import rational
-from oracle.rounding import expected
-from oracle.trace import trace
+from raycert.cases.accept import Numbers
+from raycert.cases.formats import BINARY32, BINARY64, Format
+from raycert.cases.model import Leaf, Ray, Refused, Solid, Tree, leaves
+from raycert.oracle.batch.booleans import Lists, combine
+from raycert.oracle.batch.engines import Engine, engine_of
+from raycert.oracle.batch.lanes import HIT, INTEGER, RUNGS, UNSURE, Codes, Floats, Found, Lanes
+from raycert.oracle.batch.narrow import narrowed, set_aside
+from raycert.oracle.batch.plan import Plan, plan
+from raycert.oracle.batch.rational import rational
+from raycert.oracle.exact.rounding import expected
+from raycert.oracle.exact.trace import trace
 
 BLOCK = 65536
 
@@ -87,7 +87,7 @@ def trace_batch(
     is bounded by the answer and what `block` rays need. For a handful of rays the scalar oracle
     is as fast.
 
-    >>> from cases.model import Sphere
+    >>> from raycert.cases.model import Sphere
     >>> u, v = [(-3, 0, 0), (0, 2, 0)], [(1, 0, 0), (1, 0, 0)]
     >>> found = trace_batch(Sphere((0, 0, 0), 1), u, v, engine="numpy")
     >>> found.pairs(0), found.pairs(1)

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from oracle.batch.probe import probe
+from raycert.oracle.batch.probe import probe
 
 INPUT = (1 + 2.0**-30, 2.0**-53, 2.0**-1074, 3.0, 1e300, 1 + 2.0**-52)
 Probe = Callable[[Any], Sequence[float]]

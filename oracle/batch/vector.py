@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from oracle.batch.arithmetic import Singles, Triple, size, two_sum
-from oracle.batch.decide import (
+from raycert.oracle.batch.arithmetic import Singles, Triple, size, two_sum
+from raycert.oracle.batch.decide import (
     behind_ball,
     behind_wall,
     curved,
@@ -20,9 +20,9 @@ from oracle.batch.decide import (
     passed_slab,
     slab,
 )
-from oracle.batch.formulas import ball, gap_ball, gap_wall, wall
-from oracle.batch.lanes import FLOAT, HIT, MISS, PAIR, Floats, Found, Lanes, Mask
-from oracle.batch.plan import CAPPED_WALL, PLANES, WALL, Plan
+from raycert.oracle.batch.formulas import ball, gap_ball, gap_wall, wall
+from raycert.oracle.batch.lanes import FLOAT, HIT, MISS, PAIR, Floats, Found, Lanes, Mask
+from raycert.oracle.batch.plan import CAPPED_WALL, PLANES, WALL, Plan
 
 ALL = (True, True, True)
 PART = 8192

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import fields
 from typing import Any, TypeVar
 
-from cases.model import SOLIDS, Ray, Solid, Tree
+from raycert.cases.model import SOLIDS, Ray, Solid, Tree
 
 Form = tuple[Any, ...]
 KINDS = tuple(SOLIDS.values())

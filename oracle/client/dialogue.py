@@ -14,9 +14,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Protocol
 
-from cases.model import Ray, Solid
-from cases.protocol import Hello, Reply
-from oracle.client.process import GRACE, Broken, Failure, Process, shown
+from raycert.cases.model import Ray, Solid
+from raycert.cases.protocol import Hello, Reply
+from raycert.oracle.client.process import GRACE, Broken, Failure, Process, shown
 
 Outcome = Reply | Failure
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from cases.model import (
+from raycert.cases.model import (
     Cylinder,
     Difference,
     HalfSpace,
@@ -20,11 +20,10 @@ from cases.model import (
     Solid,
     Sphere,
     Union,
-    leaves,
-    type_of,
+    types,
 )
-from cases.protocol import Hello, Pairs
-from oracle.client.dialogue import Question
+from raycert.cases.protocol import Hello, Pairs
+from raycert.oracle.client.dialogue import Question
 
 INF = math.inf
 
@@ -56,11 +55,7 @@ class Easy:
 
 def easy(hello: Hello) -> tuple[Easy, ...]:
     """Return the easy cases whose solids, parts included, are all declared."""
-    return tuple(case for case in EASY if _types(case.solid) <= set(hello.solids))
-
-
-def _types(solid: Solid) -> set[str]:
-    return {type_of(solid)} | {type_of(leaf) for _, leaf in leaves(solid)}
+    return tuple(case for case in EASY if types(case.solid) <= set(hello.solids))
 
 
 def _cylinder(x: float, radius: float) -> Cylinder:

@@ -17,8 +17,8 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from cases.protocol import Hello
-from oracle.client.dialogue import (
+from raycert.cases.protocol import Hello
+from raycert.oracle.client.dialogue import (
     Dialogue,
     Limits,
     Outcome,
@@ -27,8 +27,8 @@ from oracle.client.dialogue import (
     Unusable,
     fresh_ids,
 )
-from oracle.client.piped import Command
-from oracle.client.process import Broken, Failure
+from raycert.oracle.client.piped import Command
+from raycert.oracle.client.process import Broken, Failure
 
 __all__ = [
     "Failure",

@@ -10,21 +10,14 @@ import json
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, Literal
 
-import oracle
-from cases.protocol import Answers, BadLine, Hello, Reply, read_hello
-from oracle.client.batch import write_batch
-from oracle.client.dialogue import Dialogue, Limits, Outcome, Question, Unusable, too_much
-from oracle.client.process import Broken, Failure, Process, shown
+from raycert.cases.protocol import Answers, BadLine, Hello, Reply, read_hello
+from raycert.oracle.client.batch import write_batch
+from raycert.oracle.client.dialogue import Dialogue, Limits, Outcome, Question, Unusable, too_much
+from raycert.oracle.client.process import Broken, Failure, Process, shown
 
-ROOT = str(Path(oracle.__file__).parents[1])
-START = (
-    f"import sys; sys.path.insert(0, {ROOT!r}); from oracle.client.worker import main; "
-    f"sys.path.remove({ROOT!r}); kind, spec = sys.argv[1:]; del sys.argv[1:]; main(kind, spec)"
-)
-"""Our packages come first until they are loaded, whatever the current directory holds."""
+WORKER = "raycert.oracle.client.worker"
 LINE = 1 << 24
 """The worker ends its lines far below this."""
 BATCH = 64
@@ -49,7 +42,7 @@ class Worked(Dialogue):
     def __init__(self, target: InProcess, limits: Limits) -> None:
         """Start the worker and read the hello. Raises `Unusable`."""
         self._spec = target.spec
-        command = [sys.executable, "-P", "-c", START, target.kind, target.spec]
+        command = [sys.executable, "-P", "-m", WORKER, target.kind, target.spec]
         super().__init__(Process(command, LINE), limits)
 
     def _greet(self) -> Hello:

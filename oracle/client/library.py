@@ -12,10 +12,10 @@ from dataclasses import fields
 from math import nan
 from pathlib import Path
 
-from cases.model import SOLIDS, TYPE_NAMES, Ray, Solid, Tree
-from cases.protocol import Hello
-from oracle.client.loaded import CannotLoad, Loaded, read_declared
-from oracle.client.values import MOST, NoAnswer
+from raycert.cases.model import SOLIDS, TYPE_NAMES, Ray, Solid, Tree
+from raycert.cases.protocol import Hello
+from raycert.oracle.client.loaded import CannotLoad, Loaded, read_declared
+from raycert.oracle.client.values import MOST, NoAnswer
 
 CODES = {name: code for code, name in enumerate(SOLIDS, 1)}
 """The codes of the header: half_space 1, sphere 2, ... difference 8."""

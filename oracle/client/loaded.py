@@ -12,10 +12,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
-from cases.model import Ray, Solid
-from cases.protocol import VERSION, BadLine, Hello, Reply, read_hello
-from oracle.client.process import Failure
-from oracle.client.values import outcome, told
+from raycert.cases.model import Ray, Solid
+from raycert.cases.protocol import VERSION, BadLine, Hello, Reply, read_hello
+from raycert.oracle.client.process import Failure
+from raycert.oracle.client.values import outcome, told
 
 LIBRARIES = (".so", ".dylib", ".dll")
 

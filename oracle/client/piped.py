@@ -6,9 +6,18 @@ import shlex
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
-from cases.protocol import VERSION, BadLine, Hello, Reply, ask, encode, read_hello, read_reply
-from oracle.client.dialogue import Dialogue, Limits, Question, Unusable, too_much
-from oracle.client.process import Broken, Failure, Process, shown
+from raycert.cases.protocol import (
+    VERSION,
+    BadLine,
+    Hello,
+    Reply,
+    ask,
+    encode,
+    read_hello,
+    read_reply,
+)
+from raycert.oracle.client.dialogue import Dialogue, Limits, Question, Unusable, too_much
+from raycert.oracle.client.process import Broken, Failure, Process, shown
 
 
 @dataclass(frozen=True, slots=True)

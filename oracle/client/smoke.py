@@ -13,10 +13,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from cases.protocol import Pairs, Reply
-from oracle.client.dialogue import Limits
-from oracle.client.easy import Easy
-from oracle.client.process import Failure
+from raycert.cases.protocol import Pairs, Reply
+from raycert.oracle.client.dialogue import Limits
+from raycert.oracle.client.easy import Easy
+from raycert.oracle.client.process import Failure
 
 Outcome = Reply | Failure
 

@@ -1,7 +1,7 @@
 """What the words of a target mean: a program to run, or code to load.
 
     module:function   a Python callable, `intersect(solid, ray) -> pairs` with the objects of
-                      cases.model, such as reference.tracer:intersect
+                      raycert.cases.model, such as reference.tracer:intersect
     ./tracer.so       a shared library (.so, .dylib, .dll) with the C signatures of raycert.h
     anything else     a program that speaks the line protocol
 
@@ -14,10 +14,10 @@ import re
 from collections.abc import Sequence
 from pathlib import Path
 
-from oracle.client.dialogue import Target, Unusable
-from oracle.client.inprocess import InProcess
-from oracle.client.loaded import LIBRARIES, CannotLoad, Loaded
-from oracle.client.piped import Command
+from raycert.oracle.client.dialogue import Target, Unusable
+from raycert.oracle.client.inprocess import InProcess
+from raycert.oracle.client.loaded import LIBRARIES, CannotLoad, Loaded
+from raycert.oracle.client.piped import Command
 
 CALLABLE = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
 
@@ -52,7 +52,7 @@ def load(words: Sequence[str]) -> Loaded:
             f"{' '.join(words)!r} is a program. Only module:function and a shared library can be "
             "loaded."
         )
-    from oracle.client.worker import KINDS
+    from raycert.oracle.client.worker import KINDS
 
     try:
         return KINDS[found.kind](found.spec)

@@ -15,9 +15,9 @@ import math
 from collections.abc import Callable
 from typing import SupportsFloat
 
-from cases.formats import Format
-from cases.protocol import Hello, Pairs, Reply
-from oracle.client.process import Failure
+from raycert.cases.formats import Format
+from raycert.cases.protocol import Hello, Pairs, Reply
+from raycert.oracle.client.process import Failure
 
 MOST = 4096
 """No list has more pairs than this: that is more than any question asks for."""

@@ -21,12 +21,12 @@ import time
 from collections.abc import Callable, Iterable
 from typing import BinaryIO
 
-from cases.model import Ray, Solid
-from cases.protocol import Reply, write_hello
-from oracle.client.batch import read_batch
-from oracle.client.library import load_library
-from oracle.client.loaded import CannotLoad, Loaded, load_callable
-from oracle.client.process import Failure
+from raycert.cases.model import Ray, Solid
+from raycert.cases.protocol import Reply, write_hello
+from raycert.oracle.client.batch import read_batch
+from raycert.oracle.client.library import load_library
+from raycert.oracle.client.loaded import CannotLoad, Loaded, load_callable
+from raycert.oracle.client.process import Failure
 
 FLUSH = 0.005
 LONGEST = 1 << 18

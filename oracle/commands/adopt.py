@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from oracle.commands.asking import from_json
-from oracle.commands.listing import PRECISIONS, TIER_NAMES, BadInput
-from oracle.commands.output import check_writable
+from raycert.oracle.commands.asking import from_json
+from raycert.oracle.commands.listing import PRECISIONS, TIER_NAMES, BadInput
+from raycert.oracle.commands.output import check_writable
 
 if TYPE_CHECKING:
-    from cases.formats import Format
-    from oracle.adopt import Found
-    from oracle.crosscheck import Checked
+    from raycert.cases.formats import Format
+    from raycert.oracle.corpus.adopt import Found
+    from raycert.oracle.witness.crosscheck import Checked
 
 EPILOG = """\b
 Examples:
@@ -65,11 +65,11 @@ def adopt(file: Path, family: str, slug: str | None, corpus: Path | None, **opti
     Its id is FAMILY/SLUG, and no slug is used twice. `raycert golden write` makes the same rows
     again. The witnesses that are installed are asked; one that finds another answer refuses.
     """
-    from cases.corpus import BadCorpus
-    from cases.families.adopted import BadAdopted
-    from oracle.adopt import Unfit, examine, installed
-    from oracle.adopt import adopt as keep
-    from oracle.golden import Contradiction
+    from raycert.cases.corpus import BadCorpus
+    from raycert.cases.families.adopted import BadAdopted
+    from raycert.oracle.corpus.adopt import Unfit, examine, installed
+    from raycert.oracle.corpus.adopt import adopt as keep
+    from raycert.oracle.corpus.golden import Contradiction
 
     folder = _corpus(corpus)
     check_writable(folder, "--corpus")
@@ -89,7 +89,7 @@ def adopt(file: Path, family: str, slug: str | None, corpus: Path | None, **opti
 
 def _corpus(corpus: Path | None) -> Path:
     """Return the folder of the corpus: the one given, or that of the checkout this runs in."""
-    from oracle.adopt import CORPUS
+    from raycert.oracle.corpus.adopt import CORPUS
 
     if corpus is not None:
         return corpus
@@ -102,8 +102,8 @@ def _found(file: Path, options: dict[str, Any]) -> Found:
     """Return the case of the file, with what the options say of it."""
     from dataclasses import replace
 
-    from cases.formats import FORMATS
-    from oracle.adopt import Found
+    from raycert.cases.formats import FORMATS
+    from raycert.oracle.corpus.adopt import Found
 
     fmt, id = FORMATS[options["precision"]], options["id"]
     if file.is_dir() or file.suffix == ".jsonl":
@@ -120,8 +120,8 @@ def _found(file: Path, options: dict[str, Any]) -> Found:
 
 
 def _row(file: Path, fmt: Format, id: str | None, why: str) -> Found:
-    from cases.corpus import BadCorpus
-    from oracle.adopt import from_row, rows_in
+    from raycert.cases.corpus import BadCorpus
+    from raycert.oracle.corpus.adopt import from_row, rows_in
 
     try:
         rows = rows_in(file, fmt)
@@ -141,7 +141,7 @@ def _row(file: Path, fmt: Format, id: str | None, why: str) -> Found:
 
 def _say(checked: Checked) -> None:
     """Print what each witness says."""
-    from oracle.witness.verdict import WITNESSES
+    from raycert.oracle.witness.verdict import WITNESSES
 
     click.echo(f"exactly {checked.answer}")
     said = {name: verdict for name, verdict, _ in checked.verdicts}

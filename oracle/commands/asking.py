@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from oracle.commands.listing import BadInput
+from raycert.oracle.commands.listing import BadInput
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from cases.formats import Format
-    from cases.forms import Json
-    from cases.model import Ray, Solid
-    from oracle.derivation.form import Fact
+    from raycert.cases.formats import Format
+    from raycert.cases.forms import Json
+    from raycert.cases.model import Ray, Solid
+    from raycert.oracle.explain.form import Fact
 
 SHAPES = {
     "cylinder": ("p", "q", "radius"),
@@ -63,9 +63,9 @@ def from_json(data: bytes, fmt: Format, option: str) -> tuple[Solid, Ray]:
 
     Ends the command with exit status 2 where it is none; `option` names it in the message.
     """
-    from cases.forms import read_ray, read_solid
-    from cases.model import Refused
-    from cases.protocol import BadLine, decode
+    from raycert.cases.forms import read_ray, read_solid
+    from raycert.cases.model import Refused
+    from raycert.cases.protocol import BadLine, decode
 
     try:
         form = decode(data)
@@ -96,8 +96,8 @@ def _advice(fmt: Format) -> str:
 
 def from_words(options: dict[str, Any], fmt: Format, rounded: list[Fact]) -> tuple[Solid, Ray]:
     """Return the solid and the ray of the options; note in `rounded` each number not exact."""
-    from cases.forms import read_ray, read_solid
-    from cases.model import Refused
+    from raycert.cases.forms import read_ray, read_solid
+    from raycert.cases.model import Refused
 
     shapes = [name for name in SHAPES if options[name]]
     if len(shapes) != 1 or not options["ray"]:
@@ -118,7 +118,7 @@ def _value(
     word: str, path: str, fmt: Format, rounded: list[Fact], single: bool = False
 ) -> float | list[float]:
     """Return the number or the vector that a word spells."""
-    from cases.model import Refused
+    from raycert.cases.model import Refused
 
     if single:
         return _number(word, path, fmt, rounded)
@@ -133,10 +133,10 @@ def _number(text: str, path: str, fmt: Format, rounded: list[Fact]) -> float:
     from fractions import Fraction
     from math import isfinite
 
-    from cases.model import Refused
-    from oracle.derivation.form import Fact, about, dyadic
-    from oracle.rounding import enclose
-    from oracle.surd import fraction
+    from raycert.cases.model import Refused
+    from raycert.oracle.exact.rounding import enclose
+    from raycert.oracle.exact.surd import fraction
+    from raycert.oracle.explain.form import Fact, about, dyadic
 
     try:
         number = float.fromhex(text) if "x" in text.lower() else float(text)

@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 if TYPE_CHECKING:
-    from oracle.bench.commands import Whole
-    from oracle.bench.errors import Spread
-    from oracle.bench.rows import Row
-    from oracle.bench.run import Report
-    from oracle.methods.method import Method
+    from raycert.oracle.measure.bench.commands import Whole
+    from raycert.oracle.measure.bench.errors import Spread
+    from raycert.oracle.measure.bench.rows import Row
+    from raycert.oracle.measure.bench.run import Report
+    from raycert.oracle.measure.methods.method import Method
 
 QUICKLY = ("random", "far", "tilted", "ties")
 """The scenarios of `--quick`, if none are named."""
@@ -75,9 +75,9 @@ def bench(**options: Any) -> None:
     if options["listing"]:
         _list()
         return
-    from oracle.bench.run import run, steps
-    from oracle.commands.output import check_writable
-    from oracle.commands.progress import counting
+    from raycert.oracle.commands.output import check_writable
+    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.measure.bench.run import run, steps
 
     scenarios = _scenarios(options)
     if options["out"] is not None:
@@ -98,7 +98,7 @@ def bench(**options: Any) -> None:
 
 
 def _scenarios(options: dict[str, Any]) -> list[str]:
-    from oracle.bench.scenarios import SCENARIOS
+    from raycert.oracle.measure.bench.scenarios import SCENARIOS
 
     for name in options["scenarios"]:
         if name not in SCENARIOS:
@@ -111,7 +111,7 @@ def _scenarios(options: dict[str, Any]) -> list[str]:
 def _effort(options: dict[str, Any]) -> Any:
     from dataclasses import replace
 
-    from oracle.bench.run import FULL, QUICK
+    from raycert.oracle.measure.bench.run import FULL, QUICK
 
     effort = QUICK if options["quick"] else FULL
     return effort if options["rays"] is None else replace(effort, rays=options["rays"])
@@ -119,9 +119,9 @@ def _effort(options: dict[str, Any]) -> Any:
 
 def _methods(options: dict[str, Any]) -> tuple[list[Method], list[str]]:
     """Return the methods to run, and notes on those that cannot."""
-    from oracle.client.dialogue import Unusable
-    from oracle.commands.targeting import stop
-    from oracle.methods.catalog import BY_NAME, chosen, here
+    from raycert.oracle.client.dialogue import Unusable
+    from raycert.oracle.commands.targeting import stop
+    from raycert.oracle.measure.methods.catalog import BY_NAME, chosen, here
 
     for name in options["names"]:
         if name not in BY_NAME:
@@ -154,7 +154,7 @@ def _list() -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from oracle.methods.catalog import METHODS
+    from raycert.oracle.measure.methods.catalog import METHODS
 
     table = Table("method", "family", "a method that", box=None, pad_edge=False)
     for method in METHODS:
@@ -217,7 +217,7 @@ def _lost(r: Row) -> str:
 
 
 def _write(report: Report, folder: Path) -> None:
-    from oracle.bench.files import write
+    from raycert.oracle.measure.bench.files import write
 
     paths, troubles = write(report, folder)
     for path in paths:
@@ -227,8 +227,8 @@ def _write(report: Report, folder: Path) -> None:
 
 
 def _time_commands() -> None:
-    from oracle.bench.commands import COMMANDS, command
-    from oracle.commands.progress import counting
+    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.measure.bench.commands import COMMANDS, command
 
     rows: list[Whole] = []
     with counting("timing", len(COMMANDS)) as advance:

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from oracle.commands.output import check_writable
-from oracle.commands.reporting import write_reports
-from oracle.commands.targeting import TARGETS, aim, limits, limits_options, spelled, stop
+from raycert.oracle.commands.output import check_writable
+from raycert.oracle.commands.reporting import write_reports
+from raycert.oracle.commands.targeting import TARGETS, aim, limits, limits_options, spelled, stop
 
 if TYPE_CHECKING:
-    from oracle.client.dialogue import Target
-    from oracle.expectations import Expectations
-    from oracle.run import Plan, Result
+    from raycert.oracle.certify.expectations import Expectations
+    from raycert.oracle.certify.run import Plan, Result
+    from raycert.oracle.client.dialogue import Target
 
 LEVEL_NAMES = ("sound", "stable", "faithful", "exact")
 TIER_NAMES = ("lattice", "generic", "stiff", "range")
@@ -92,8 +92,8 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     A level is granted to a type of solid if every row that decides it passes. What TARGET does not
     declare is not sent, and listed as not tested. Nothing else is left out.
     """
-    from oracle.expectations import Expectations
-    from oracle.reports.reading import verdict
+    from raycert.oracle.certify.expectations import Expectations
+    from raycert.oracle.reports.reading import verdict
 
     for name in ("out", *REPORTS, "record"):
         if options[name]:
@@ -115,11 +115,11 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
 
 
 def _plan(target: tuple[str, ...], options: dict[str, Any]) -> Plan:
-    from cases.corpus import GOLDEN
-    from cases.protocol import BadLine, convention
-    from oracle.fresh import COUNT, Fresh
-    from oracle.run import Plan
-    from oracle.selection import BadShard, Selection, Shard
+    from raycert.cases.corpus import GOLDEN
+    from raycert.cases.protocol import BadLine, convention
+    from raycert.oracle.certify.run import Plan
+    from raycert.oracle.certify.selection import BadShard, Selection, Shard
+    from raycert.oracle.corpus.fresh import COUNT, Fresh
 
     try:
         convention(options["convention"])
@@ -145,7 +145,7 @@ def _plan(target: tuple[str, ...], options: dict[str, Any]) -> Plan:
 
 
 def _expectations(path: Path | None) -> Expectations | None:
-    from oracle.expectations import BadExpectations, read
+    from raycert.oracle.certify.expectations import BadExpectations, read
 
     try:
         return read(path.read_text("utf-8"), str(path)) if path else None
@@ -154,17 +154,17 @@ def _expectations(path: Path | None) -> Expectations | None:
 
 
 def _recorded(result: Result, old: Expectations) -> str:
-    from oracle.expectations import write
+    from raycert.oracle.certify.expectations import write
 
     return write(result.recorded(old))
 
 
 def _run(plan: Plan) -> Result:
     """Certify; what keeps the target from being tested ends the program."""
-    from cases.corpus import BadCorpus
-    from oracle.client.dialogue import Unusable
-    from oracle.commands.progress import counting
-    from oracle.run import NotInCorpus, Unsuitable, Watch, certify
+    from raycert.cases.corpus import BadCorpus
+    from raycert.oracle.certify.run import NotInCorpus, Unsuitable, Watch, certify
+    from raycert.oracle.client.dialogue import Unusable
+    from raycert.oracle.commands.progress import counting
 
     def note(line: str) -> None:
         click.echo(f"the adapter, rather than the tracer: {line}", err=True)
@@ -181,9 +181,9 @@ def _run(plan: Plan) -> Result:
 
 def _standing(name: str, target: Target, options: dict[str, Any]) -> dict[str, Any]:
     """Measure where the target sits, as far as that is asked."""
-    from oracle.client.dialogue import Unusable
-    from oracle.commands.progress import counting
-    from oracle.standing import in_time, under_stress
+    from raycert.oracle.client.dialogue import Unusable
+    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.measure.standing import in_time, under_stress
 
     standing: dict[str, Any] = {"stress": None, "bench": None}
     for option, measure in (("stress", under_stress), ("bench", in_time)):
@@ -201,7 +201,7 @@ def _publish(form: dict[str, Any], options: dict[str, Any]) -> None:
 
     from rich.console import Console
 
-    from oracle.report import report
+    from raycert.oracle.reports.terminal import report
 
     _write(options["out"], json.dumps(form, indent=1, allow_nan=False) + "\n")
     asked = {name: str(options[name]) for name in REPORTS if options[name]}
@@ -211,6 +211,6 @@ def _publish(form: dict[str, Any], options: dict[str, Any]) -> None:
 
 
 def _write(path: Path, text: str) -> None:
-    from cases.corpus import write_whole
+    from raycert.cases.corpus import write_whole
 
     write_whole(path, text.encode("utf-8", "replace"))

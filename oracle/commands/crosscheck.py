@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
-    from oracle.crosscheck import Checked, Question, Summary, Tally
+    from raycert.oracle.witness.crosscheck import Checked, Question, Summary, Tally
 
 NAMES = ("definition", "enclosure", "symbols", "meshes")
 SHOWN = 10
@@ -81,7 +81,7 @@ def _stop(message: str) -> NoReturn:
 
 def _require(names: Sequence[str]) -> None:
     """Stop, naming what to install, if a witness cannot be loaded."""
-    from oracle.witness.verdict import Missing, load
+    from raycert.oracle.witness.verdict import Missing, load
 
     for name in names:
         try:
@@ -92,12 +92,12 @@ def _require(names: Sequence[str]) -> None:
 
 
 def _questions(options: dict[str, Any]) -> list[Question]:
-    from oracle.crosscheck import Question
+    from raycert.oracle.witness.crosscheck import Question
 
     if options["lines"]:
         return [_read(line, f"json-{i}") for i, line in enumerate(options["lines"], 1)]
     if options["fresh"]:
-        from oracle.witness.sample import fresh
+        from raycert.cases.sample import fresh
 
         cases = fresh(options["fresh"], options["seed"])
         return [Question(f"fresh/{case.slug}", case.solid, case.ray) for case in cases]
@@ -106,10 +106,10 @@ def _questions(options: dict[str, Any]) -> list[Question]:
 
 def _read(line: str, id: str) -> Question:
     """Return the case on a line of the protocol, as it is sent to an implementation."""
-    from cases.forms import read_ray, read_solid
-    from cases.model import Refused
-    from cases.protocol import BadLine, decode
-    from oracle.crosscheck import Question
+    from raycert.cases.forms import read_ray, read_solid
+    from raycert.cases.model import Refused
+    from raycert.cases.protocol import BadLine, decode
+    from raycert.oracle.witness.crosscheck import Question
 
     try:
         form = decode(line.encode())
@@ -120,9 +120,9 @@ def _read(line: str, id: str) -> Question:
 
 
 def _rows(folder: Path | None, families: tuple[str, ...]) -> list[Question]:
-    from cases.corpus import GOLDEN, BadCorpus, read_corpus
-    from cases.formats import FORMATS
-    from oracle.crosscheck import Question
+    from raycert.cases.corpus import GOLDEN, BadCorpus, read_corpus
+    from raycert.cases.formats import FORMATS
+    from raycert.oracle.witness.crosscheck import Question
 
     try:
         corpora = [read_corpus(precision, folder or GOLDEN) for precision in FORMATS]
@@ -142,9 +142,9 @@ def _rows(folder: Path | None, families: tuple[str, ...]) -> list[Question]:
 def _crosscheck(questions: list[Question], names: Sequence[str], workers: int) -> int:
     from rich.console import Console
 
-    from oracle.commands.progress import counting
-    from oracle.crosscheck import Summary
-    from oracle.crosscheck import crosscheck as run
+    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.witness.crosscheck import Summary
+    from raycert.oracle.witness.crosscheck import crosscheck as run
 
     summary = Summary.over(names)
     with counting("cross-checking", len(questions)) as advance:
@@ -161,8 +161,8 @@ def _crosscheck(questions: list[Question], names: Sequence[str], workers: int) -
 
 def _print_difference(checked: Checked, names: Sequence[str]) -> None:
     """Print the case, all answers, and the command that repeats it."""
-    from cases.formats import BINARY64
-    from cases.protocol import ask
+    from raycert.cases.formats import BINARY64
+    from raycert.cases.protocol import ask
 
     question = checked.question
     line = ask(question.id, question.solid, question.ray, "decimal", BINARY64).decode().strip()
@@ -198,7 +198,7 @@ def _print_curve() -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from oracle.witness.convergence import convergence
+    from raycert.oracle.witness.convergence import convergence
 
     title = "Prisms of n sides: the gap between inner and outer list shrinks as 1/n^2"
     table = Table(box=SIMPLE_HEAD, title=title, title_justify="left")

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from oracle.commands.asking import from_json, from_words, shape_options, words_given
-from oracle.commands.listing import find, golden_option, precision_option, read
-from oracle.commands.output import check_writable
+from raycert.oracle.commands.asking import from_json, from_words, shape_options, words_given
+from raycert.oracle.commands.listing import find, golden_option, precision_option, read
+from raycert.oracle.commands.output import check_writable
 
 if TYPE_CHECKING:
-    from oracle.derivation.derive import Derivation
-    from oracle.derivation.form import Fact
-    from oracle.witness.symbols import Statement
+    from raycert.oracle.explain.derive import Derivation
+    from raycert.oracle.explain.form import Fact
+    from raycert.oracle.witness.symbols import Statement
 
 EXAMPLES = """\b
 Examples:
@@ -91,7 +91,7 @@ def explain(id: str | None, form: str, symbolic: bool, **options: Any) -> None:
     derivation = _derivation(id, options) if given else None
     statements = None
     if symbolic:
-        from oracle.commands.symbolic import proofs
+        from raycert.oracle.commands.symbolic import proofs
 
         statements = proofs()
     if page and derivation is not None:
@@ -105,10 +105,10 @@ def _write(file: str, derivation: Derivation, options: dict[str, Any], id: str |
     """Ask the implementations, and write the page."""
     import shlex
 
-    from cases.corpus import write_whole
-    from oracle.asked import ask
-    from oracle.commands.targeting import aim
-    from oracle.reports.casepage import case_page
+    from raycert.cases.corpus import write_whole
+    from raycert.oracle.commands.targeting import aim
+    from raycert.oracle.explain.casepage import case_page
+    from raycert.oracle.explain.one_case import ask
 
     row, fmt = derivation.row, derivation.format
     words = options["targets"] or ("reference",)
@@ -127,7 +127,7 @@ def _repeat(derivation: Derivation, options: dict[str, Any], id: str | None) -> 
     import json
     import shlex
 
-    from cases.forms import write_ray, write_solid
+    from raycert.cases.forms import write_ray, write_solid
 
     row, words = derivation.row, ["raycert", "explain"]
     case = {"solid": write_solid(row.solid), "ray": write_ray(row.ray)}
@@ -145,9 +145,9 @@ def _derivation(id: str | None, options: dict[str, Any]) -> Derivation:
     """Return the derivation of the case that the words name."""
     from dataclasses import replace
 
-    from cases.formats import FORMATS
-    from oracle.derivation.derive import derive, given
-    from oracle.derivation.form import Step
+    from raycert.cases.formats import FORMATS
+    from raycert.oracle.explain.derive import derive, given
+    from raycert.oracle.explain.form import Step
 
     fmt = FORMATS[options["precision"]]
     if id:
@@ -175,11 +175,11 @@ def _show(
         _show_json(derivation, statements)
     else:
         if statements is not None:
-            from oracle.commands.symbolic import show_proofs
+            from raycert.oracle.commands.symbolic import show_proofs
 
             show_proofs(statements, console)
         if derivation is not None:
-            from oracle.derivation.text import show
+            from raycert.oracle.explain.text import show
 
             if statements is not None:
                 console.print()
@@ -193,18 +193,18 @@ def _show_json(derivation: Derivation | None, statements: list[Statement] | None
 
     form: dict[str, Any] = {}
     if statements is not None:
-        from oracle.commands.symbolic import to_json as proofs_to_json
+        from raycert.oracle.commands.symbolic import to_json as proofs_to_json
 
         form["symbolic"] = proofs_to_json(statements)
     if derivation is not None:
-        from oracle.derivation.derive import to_json
+        from raycert.oracle.explain.derive import to_json
 
         form |= to_json(derivation)
     click.echo(json.dumps(form, indent=1))
 
 
 def _from_golden(id: str, options: dict[str, Any]) -> Derivation:
-    from oracle.derivation.derive import as_given, derive
+    from raycert.oracle.explain.derive import as_given, derive
 
     corpus = read(options["precision"], options["golden"])
     row = find(corpus, id)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from oracle.commands.listing import (
+from raycert.oracle.commands.listing import (
     TIER_NAMES,
     BadInput,
     golden_option,
@@ -18,11 +18,11 @@ from oracle.commands.listing import (
 )
 
 if TYPE_CHECKING:
-    from cases.accept import Accept
-    from cases.corpus import Corpus
-    from cases.formats import Format
-    from cases.model import Ray, Solid
-    from cases.row import End, GoldenRow
+    from raycert.cases.accept import Accept
+    from raycert.cases.corpus import Corpus
+    from raycert.cases.formats import Format
+    from raycert.cases.model import Ray, Solid
+    from raycert.cases.row import End, GoldenRow
 
 COLUMNS = (
     "id",
@@ -129,7 +129,7 @@ def export(
     if out == "-":
         click.echo(data, nl=False)
         return
-    from cases.corpus import write_whole
+    from raycert.cases.corpus import write_whole
 
     try:
         write_whole(Path(out), data)
@@ -141,8 +141,7 @@ def export(
 def _chosen(
     corpus: Corpus, families: tuple[str, ...], tiers: tuple[str, ...], solids: str | None
 ) -> Iterator[GoldenRow]:
-    from cases.model import SOLIDS
-    from oracle.selection import types
+    from raycert.cases.model import SOLIDS, types
 
     allowed = [name.strip() for name in solids.split(",")] if solids else list(SOLIDS)
     for name in allowed:
@@ -204,7 +203,7 @@ def _solid(solid: Solid, fmt: Format) -> str:
     """Return a solid in prefix notation."""
     from dataclasses import fields
 
-    from cases.model import Tree, type_of
+    from raycert.cases.model import Tree, type_of
 
     words = [type_of(solid)]
     if isinstance(solid, Tree):

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from oracle.commands.output import check_writable
+from raycert.oracle.commands.output import check_writable
 
 if TYPE_CHECKING:
-    from cases.case import Family
+    from raycert.cases.case import Family
 
 FOLDER = click.option(
     "--golden",
@@ -46,8 +46,8 @@ def write(folder: Path | None, corpus: Path | None, release: bool) -> None:
     The witnesses by definition and by enclosure check each row. A row on which one disagrees is
     not written, and neither is anything else.
     """
-    from oracle.golden import RELEASE, USUAL, Contradiction
-    from oracle.golden import write as write_files
+    from raycert.oracle.corpus.golden import RELEASE, USUAL, Contradiction
+    from raycert.oracle.corpus.golden import write as write_files
 
     target, families = _place(folder, corpus)
     check_writable(target, "--golden")
@@ -65,7 +65,7 @@ def write(folder: Path | None, corpus: Path | None, release: bool) -> None:
 @CORPUS
 def check(folder: Path | None, corpus: Path | None) -> None:
     """Compute every row and compare bytes and values with the files; exit 1 on any difference."""
-    from oracle.golden import compare
+    from raycert.oracle.corpus.golden import compare
 
     target, families = _place(folder, corpus)
     if not target.is_dir():
@@ -84,9 +84,9 @@ def check(folder: Path | None, corpus: Path | None) -> None:
 
 def _place(folder: Path | None, corpus: Path | None) -> tuple[Path, tuple[Family, ...]]:
     """Return where the golden files are, and the families that make them."""
-    from cases.corpus import GOLDEN
-    from cases.families.catalog import FAMILIES
-    from oracle.adopt import sources
+    from raycert.cases.corpus import GOLDEN
+    from raycert.cases.families.catalog import FAMILIES
+    from raycert.oracle.corpus.adopt import sources
 
     if corpus is None:
         return folder or GOLDEN, FAMILIES
@@ -98,7 +98,7 @@ def _place(folder: Path | None, corpus: Path | None) -> tuple[Path, tuple[Family
 @contextmanager
 def _progress(verb: str) -> Iterator[Callable[[str], None]]:
     """Show how many rows are done, on a terminal only."""
-    from oracle.commands.progress import counting
+    from raycert.oracle.commands.progress import counting
 
     with counting(verb) as advance:
         yield lambda _: advance()

@@ -100,7 +100,7 @@ def templates(lang: str) -> Iterator[tuple[str, bytes]]:
     """Yield each file of a language's client: its path in the directory, and its bytes."""
     from importlib.resources import files
 
-    root = files("oracle.starters")
+    root = files("raycert.oracle.starters")
     yield from _walk(root / lang, "")
     if lang == "library":  # binds the tracer of the C client
         yield from ((name, (root / "c" / name).read_bytes()) for name in ("tracer.c", "tracer.h"))
@@ -116,7 +116,7 @@ def _walk(folder: Traversable, path: str) -> Iterator[tuple[str, bytes]]:
 
 def _write(folder: Path, files: dict[str, bytes], force: bool) -> None:
     """Write all the files, or none where one is there already."""
-    from cases.corpus import write_whole
+    from raycert.cases.corpus import write_whole
 
     there = [str(folder / name) for name in files if (folder / name).exists()]
     if there and not force:

@@ -11,14 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from oracle.commands.output import check_writable
-from oracle.commands.targeting import TARGETS, aim, limits, limits_options, spelled, stop
+from raycert.oracle.commands.output import check_writable
+from raycert.oracle.commands.targeting import TARGETS, aim, limits, limits_options, spelled, stop
 
 if TYPE_CHECKING:
-    from oracle.client.dialogue import Target
-    from oracle.hunt.executors import Executor
-    from oracle.hunt.search import Finding, Hunt
-    from oracle.hunt.unit import Job
+    from raycert.oracle.client.dialogue import Target
+    from raycert.oracle.hunt.executors import Executor
+    from raycert.oracle.hunt.search import Finding, Hunt
+    from raycert.oracle.hunt.unit import Job
 
 LEVEL_NAMES = ("sound", "stable", "faithful", "exact")
 FOLDER = click.Path(file_okay=False, path_type=Path)
@@ -87,9 +87,9 @@ def hunt(target: tuple[str, ...], **options: Any) -> None:
 
 def _check(options: dict[str, Any]) -> None:
     """Refuse what cannot be done, before the work."""
-    from cases.corpus import MANIFEST, BadCorpus, read_manifest
-    from cases.model import SOLIDS
-    from cases.protocol import BadLine, convention
+    from raycert.cases.corpus import MANIFEST, BadCorpus, read_manifest
+    from raycert.cases.model import SOLIDS
+    from raycert.cases.protocol import BadLine, convention
 
     if options["cases"] and options["seconds"]:
         raise click.UsageError("--time and --cases exclude one another")
@@ -115,10 +115,10 @@ def _check(options: dict[str, Any]) -> None:
 
 
 def _job(target: Target, options: dict[str, Any]) -> Job:
-    from cases.corpus import GOLDEN
-    from cases.model import SOLIDS
-    from oracle.hunt.look import Asked
-    from oracle.hunt.unit import Job
+    from raycert.cases.corpus import GOLDEN
+    from raycert.cases.model import SOLIDS
+    from raycert.oracle.hunt.look import Asked
+    from raycert.oracle.hunt.unit import Job
 
     try:
         import hypothesis  # noqa: F401
@@ -136,10 +136,10 @@ def _job(target: Target, options: dict[str, Any]) -> Job:
 
 
 def _hunt(job: Job, options: dict[str, Any]) -> Hunt:
-    from oracle.client.dialogue import Unusable
-    from oracle.hunt.executors import Lost
-    from oracle.hunt.search import Budget
-    from oracle.hunt.search import hunt as run
+    from raycert.oracle.client.dialogue import Unusable
+    from raycert.oracle.hunt.executors import Lost
+    from raycert.oracle.hunt.search import Budget
+    from raycert.oracle.hunt.search import hunt as run
 
     seconds = None if options["cases"] else options["seconds"] or SECONDS
     budget = Budget(options["cases"], seconds, options["most"])
@@ -153,11 +153,11 @@ def _hunt(job: Job, options: dict[str, Any]) -> Hunt:
 def _executor(job: Job, options: dict[str, Any]) -> Executor:
     from functools import partial
 
-    from oracle.hunt.executors import Here, Processes
-    from oracle.hunt.unit import work
+    from raycert.oracle.hunt.executors import Here, Processes
+    from raycert.oracle.hunt.unit import work
 
     if options["scheduler"]:
-        from oracle.hunt.cluster import Cluster
+        from raycert.oracle.hunt.cluster import Cluster
 
         return Cluster(partial(work, job), options["scheduler"])
     if options["workers"] > 1:
@@ -201,8 +201,8 @@ def _written(
     found: Hunt, job: Job, target: tuple[str, ...], options: dict[str, Any]
 ) -> dict[str, Finding]:
     """Write the findings, and return them by their ids."""
-    from oracle.golden import Contradiction
-    from oracle.hunt import keep
+    from raycert.oracle.corpus.golden import Contradiction
+    from raycert.oracle.hunt import keep
 
     findings = keep.named(found.findings.values(), job.seed)
     names = ("level", "convention", "far", "solids", "cases", "seconds", "seed", "seeded")
@@ -224,9 +224,9 @@ def _written(
 def _print(
     found: Hunt, findings: dict[str, Finding], target: tuple[str, ...], options: dict[str, Any]
 ) -> None:
-    from oracle.golden import show
-    from oracle.hunt.keep import answer_line, case_line
-    from oracle.trace import trace
+    from raycert.oracle.corpus.golden import show
+    from raycert.oracle.exact.trace import trace
+    from raycert.oracle.hunt.keep import answer_line, case_line
 
     for id, finding in findings.items():
         click.echo(f"{id}  {finding.fault.level} fails: {finding.cause}")

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, NoReturn
 import click
 
 if TYPE_CHECKING:
-    from cases.corpus import Corpus
-    from cases.row import GoldenRow
+    from raycert.cases.corpus import Corpus
+    from raycert.cases.row import GoldenRow
 
 TIER_NAMES = ("lattice", "generic", "stiff", "range")
 LEVEL_NAMES = ("sound", "stable", "faithful", "exact")
@@ -62,7 +62,7 @@ class BadInput(click.ClickException):
 
 def read(precision: str, golden: Path | None) -> Corpus:
     """Return the rows of a precision, or stop with what is wrong with the files."""
-    from cases.corpus import GOLDEN, BadCorpus, read_corpus
+    from raycert.cases.corpus import GOLDEN, BadCorpus, read_corpus
 
     try:
         return read_corpus(precision, golden or GOLDEN)
@@ -138,7 +138,7 @@ def list_cases(precision: str, golden: Path | None, **options: Any) -> None:
 
 def values(row: GoldenRow, field: str) -> tuple[str, ...]:
     """Return what a row has in a field; row names without the path in a tree."""
-    from cases.model import type_of
+    from raycert.cases.model import type_of
 
     match field:
         case "flag":
@@ -170,10 +170,10 @@ def _matches(row: GoldenRow, options: dict[str, Any]) -> bool:
 
 def _check(options: dict[str, Any], corpus: Corpus) -> None:
     """Stop at a name that no row of the corpus has."""
-    from cases.flags import FLAGS
-    from cases.model import SOLIDS
-    from cases.protocol import TOUCHES
-    from cases.table import HALF_SPACE, PROBLEM_1, PROBLEM_2, PROBLEM_3
+    from raycert.cases.flags import FLAGS
+    from raycert.cases.model import SOLIDS
+    from raycert.cases.protocol import TOUCHES
+    from raycert.cases.table import HALF_SPACE, PROBLEM_1, PROBLEM_2, PROBLEM_3
 
     tables = (*PROBLEM_1, *PROBLEM_2, *PROBLEM_3, *HALF_SPACE)
     signs = {f"{pair[0]}{s}{pair[1]}" for pair in ("ac", "bd", "mn") for s in "<=>"}
@@ -223,7 +223,7 @@ def _print_families(rows: list[GoldenRow]) -> None:
     """Print each family with its rows per tier and its reason, where the tool knows the family."""
     from textwrap import wrap
 
-    from cases.families.catalog import FAMILIES
+    from raycert.cases.families.catalog import FAMILIES
 
     reasons = {family.name: family.reason for family in FAMILIES}
     width = _screen()
@@ -242,7 +242,7 @@ def _print_families(rows: list[GoldenRow]) -> None:
 def _print_legend() -> None:
     from textwrap import wrap
 
-    from cases.flags import FLAGS
+    from raycert.cases.flags import FLAGS
 
     width = _screen() or 100
     for flag in FLAGS.values():
@@ -263,7 +263,7 @@ def show(ids: tuple[str, ...], raw: bool, full: bool, precision: str, golden: Pa
     corpus = read(precision, golden)
     rows = [find(corpus, id) for id in ids]
     if raw:
-        from cases.corpus import encode_rows
+        from raycert.cases.corpus import encode_rows
 
         click.echo(encode_rows(rows, corpus.format), nl=False)
         return
@@ -274,8 +274,8 @@ def _print_in_full(rows: list[GoldenRow], corpus: Corpus, full: bool) -> None:
     from rich.console import Console
     from rich.text import Text
 
-    from oracle.derivation.row import row_steps
-    from oracle.derivation.text import case_lines, put, step_lines
+    from raycert.oracle.explain.row_lines import row_steps
+    from raycert.oracle.explain.text import case_lines, put, step_lines
 
     console = Console()
     width = 10**9 if full else console.width

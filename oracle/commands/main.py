@@ -8,31 +8,61 @@ from typing import Any
 import click
 
 VERBS: dict[str, tuple[str, str]] = {
-    "certify": ("oracle.commands.certify:certify", "Grade an implementation on the golden cases."),
-    "report": ("oracle.commands.reporting:report", "Write the reports of a certificate again."),
-    "explain": ("oracle.commands.explain:explain", "Derive one case in the seed's steps."),
-    "list": ("oracle.commands.listing:list_cases", "List golden cases by family, flag, tier, row."),
-    "show": ("oracle.commands.listing:show", "Show golden rows in full."),
-    "export": ("oracle.commands.export:export", "Write the golden cases as flat TSV."),
-    "golden": ("oracle.commands.golden:golden", "Regenerate or check the golden files."),
+    "certify": (
+        "raycert.oracle.commands.certify:certify",
+        "Grade an implementation on the golden cases.",
+    ),
+    "report": (
+        "raycert.oracle.commands.reporting:report",
+        "Write the reports of a certificate again.",
+    ),
+    "explain": ("raycert.oracle.commands.explain:explain", "Derive one case in the seed's steps."),
+    "list": (
+        "raycert.oracle.commands.listing:list_cases",
+        "List golden cases by family, flag, tier, row.",
+    ),
+    "show": ("raycert.oracle.commands.listing:show", "Show golden rows in full."),
+    "export": ("raycert.oracle.commands.export:export", "Write the golden cases as flat TSV."),
+    "golden": ("raycert.oracle.commands.golden:golden", "Regenerate or check the golden files."),
     "harness": (
-        "oracle.commands.harness:harness",
+        "raycert.oracle.commands.harness:harness",
         "Write a starter client in C, C++, Rust, Go, Java, ...",
     ),
-    "zoo": ("oracle.commands.zoo:zoo", "Try planted wrong tracers: who refuses which, and why."),
+    "zoo": (
+        "raycert.oracle.commands.zoo:zoo",
+        "Try planted wrong tracers: who refuses which, and why.",
+    ),
     "crosscheck": (
-        "oracle.commands.crosscheck:crosscheck",
+        "raycert.oracle.commands.crosscheck:crosscheck",
         "Check the oracle by independent witnesses.",
     ),
-    "bench": ("oracle.commands.bench:bench", "Set error against run time, on the same rays."),
-    "render": ("oracle.commands.render:render", "Render a scene: depth, normals, error."),
-    "plan": ("oracle.commands.plan:plan", "What a scene lets the tracer leave out, and why."),
-    "speed": ("oracle.commands.speed:speed", "What answers cost beside other ways, as ratios."),
-    "stress": ("oracle.commands.stress:stress", "Set error against how stiff the problem is."),
-    "hunt": ("oracle.commands.hunt:hunt", "Search for failing cases and make them simple."),
-    "map": ("oracle.commands.map:draw_map", "Draw what surrounds a case: exact answers, errors."),
-    "adopt": ("oracle.commands.adopt:adopt", "Keep a found case in the corpus."),
-    "serve": ("oracle.commands.serve:serve", "Answer the line protocol: oracle or reference."),
+    "bench": (
+        "raycert.oracle.commands.bench:bench",
+        "Set error against run time, on the same rays.",
+    ),
+    "render": ("raycert.oracle.commands.render:render", "Render a scene: depth, normals, error."),
+    "plan": (
+        "raycert.oracle.commands.plan:plan",
+        "What a scene lets the tracer leave out, and why.",
+    ),
+    "speed": (
+        "raycert.oracle.commands.speed:speed",
+        "What answers cost beside other ways, as ratios.",
+    ),
+    "stress": (
+        "raycert.oracle.commands.stress:stress",
+        "Set error against how stiff the problem is.",
+    ),
+    "hunt": ("raycert.oracle.commands.hunt:hunt", "Search for failing cases and make them simple."),
+    "map": (
+        "raycert.oracle.commands.map:draw_map",
+        "Draw what surrounds a case: exact answers, errors.",
+    ),
+    "adopt": ("raycert.oracle.commands.adopt:adopt", "Keep a found case in the corpus."),
+    "serve": (
+        "raycert.oracle.commands.serve:serve",
+        "Answer the line protocol: oracle or reference.",
+    ),
 }
 
 EPILOG = """\b

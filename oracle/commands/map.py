@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from oracle.commands.asking import from_json, from_words, shape_options, words_given
-from oracle.commands.listing import BadInput, find, golden_option, precision_option, read
-from oracle.commands.output import check_writable
-from oracle.commands.progress import counting
-from oracle.commands.targeting import aim, limits, limits_options, stop
+from raycert.oracle.commands.asking import from_json, from_words, shape_options, words_given
+from raycert.oracle.commands.listing import BadInput, find, golden_option, precision_option, read
+from raycert.oracle.commands.output import check_writable
+from raycert.oracle.commands.progress import counting
+from raycert.oracle.commands.targeting import aim, limits, limits_options, stop
 
 if TYPE_CHECKING:
-    from cases.formats import Format
-    from oracle.map.cells import Map
-    from oracle.map.inputs import Case
-    from oracle.map.plan import Plan
+    from raycert.cases.formats import Format
+    from raycert.oracle.map.cells import Map
+    from raycert.oracle.map.inputs import Case
+    from raycert.oracle.map.plan import Plan
 
 PICTURES, DATA = (".png", ".svg"), (".json", ".csv")
 SHOWS = ("exact", "answer", "k", "ulps", "disagreement")
@@ -129,7 +129,7 @@ def _writers(outs: tuple[Path, ...]) -> dict[Path, Callable[[Map, str], None]]:
 
 def _picture(path: Path) -> Callable[[Map, str], None]:
     try:
-        from oracle.plots.cells import save
+        from raycert.oracle.plots.cells import save
     except ImportError as error:
         raise BadInput(
             f'pictures need matplotlib: pip install "raycert[plots]" ({error})'
@@ -140,7 +140,7 @@ def _picture(path: Path) -> Callable[[Map, str], None]:
 def _data(path: Path) -> Callable[[Map, str], None]:
     import json
 
-    from oracle.map.data import to_csv, to_json
+    from raycert.oracle.map.data import to_csv, to_json
 
     if path.suffix.lower() == ".csv":
         return lambda found, _: _put(path, to_csv(found))
@@ -164,10 +164,10 @@ def _case(options: dict[str, Any], fmt: Format) -> Case:
 def _plan(options: dict[str, Any]) -> Plan:
     from fractions import Fraction
 
-    from cases.formats import FORMATS
-    from cases.model import Refused
-    from oracle.map.inputs import Inputs
-    from oracle.map.plan import Plan
+    from raycert.cases.formats import FORMATS
+    from raycert.cases.model import Refused
+    from raycert.oracle.map.inputs import Inputs
+    from raycert.oracle.map.plan import Plan
 
     fmt, cells = FORMATS[options["precision"]], options["cells"]
     usual = str(cells // 2) if options["unit"] == "ulps" else "1"
@@ -186,8 +186,8 @@ def _plan(options: dict[str, Any]) -> Plan:
 def _sampled(plan: Plan, show: Any, options: dict[str, Any]) -> Map:
     import shlex
 
-    from oracle.client.dialogue import Unusable
-    from oracle.map.cells import sample
+    from raycert.oracle.client.dialogue import Unusable
+    from raycert.oracle.map.cells import sample
 
     target = None
     if show != "exact":
@@ -203,7 +203,7 @@ def _sampled(plan: Plan, show: Any, options: dict[str, Any]) -> Map:
 
 
 def _title(options: dict[str, Any]) -> str:
-    from oracle.commands.asking import SHAPES
+    from raycert.oracle.commands.asking import SHAPES
 
     if options["id"]:
         return f"Around {options['id']}"
@@ -213,7 +213,7 @@ def _title(options: dict[str, Any]) -> str:
 
 
 def _print(found: Map, outs: tuple[Path, ...]) -> None:
-    from oracle.map.legend import summary
+    from raycert.oracle.map.legend import summary
 
     for line in summary(found):
         click.echo(line)

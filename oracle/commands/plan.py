@@ -7,8 +7,8 @@ from typing import Any
 
 import click
 
-from oracle.commands.listing import BadInput
-from oracle.commands.scenes import ask, needs, read, scene_argument
+from raycert.oracle.commands.listing import BadInput
+from raycert.oracle.commands.scenes import ask, needs, read, scene_argument
 
 SHOWS = ("depth", "normal", "thickness", "count")
 EPILOG = """\b
@@ -52,8 +52,8 @@ def plan(scene: str | None, **options: Any) -> None:
         _costs(options)
         return
     read_scene, name = read(scene, options["size"] or "320x240")
-    from cases.scene import write_scene
-    from oracle.commands.progress import counting
+    from raycert.cases.scene import write_scene
+    from raycert.oracle.commands.progress import counting
 
     task = {"task": "plan", "show": options["show"], "repeats": options["repeats"]}
     with counting("timing") as advance:
@@ -94,9 +94,9 @@ def _show(found: dict[str, Any]) -> None:
 
 def _costs(options: dict[str, Any]) -> None:
     """Print what crowds of more and more solids cost."""
-    from cases.model import Refused
-    from cases.scene import read_size
-    from oracle.commands.progress import counting
+    from raycert.cases.model import Refused
+    from raycert.cases.scene import read_size
+    from raycert.oracle.commands.progress import counting
 
     words = (options["size"] or "640x480").lower().split("x")
     try:

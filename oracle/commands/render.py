@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from oracle.commands.listing import BadInput
-from oracle.commands.output import check_writable
-from oracle.commands.scenes import Asked, needs, read, scene_argument, start, table
+from raycert.oracle.commands.listing import BadInput
+from raycert.oracle.commands.output import check_writable
+from raycert.oracle.commands.scenes import Asked, needs, read, scene_argument, start, table
 
 if TYPE_CHECKING:
-    from cases.scene import Scene
+    from raycert.cases.scene import Scene
 
 SHOWS = ("depth", "normal", "thickness", "count", "error")
 BOUND = 64
@@ -92,7 +92,7 @@ def render(scene: str | None, out: Path | None, **options: Any) -> None:
 def _render(scene: Scene, source: str, out: Path, asked: Asked, size: str | None) -> int:
     began = time.perf_counter()
     started = start(scene, asked)
-    from oracle.plots.heatmap import extremes, of_scene, save, shown  # while the tracer works
+    from raycert.oracle.plots.heatmap import extremes, of_scene, save, shown
 
     found = started.arrays()
     rows = _errors(scene, found) if asked.show == "error" else []
@@ -115,8 +115,8 @@ def _array(rows: list[list[float]]) -> Any:
 
 def _errors(scene: Scene, found: dict[str, Any]) -> list[list[float]]:
     """Return k of every pixel, row by row, judged in two processes."""
-    from oracle.commands.progress import counting
-    from oracle.scene_errors import every_row
+    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.judge.pixels import every_row
 
     arrays = (found[name].tolist() for name in ("enter", "leave", "count"))
     answers = [list(zip(a[:n], b[:n], strict=True)) for a, b, n in zip(*arrays, strict=True)]
@@ -143,8 +143,8 @@ def _pixel(scene: Scene, words: str) -> str:
     """Return the case of a pixel as the line protocol has it, numbers as hex floats."""
     import json
 
-    from cases.forms import write_ray, write_solid
-    from cases.scene import frame, pixel_ray
+    from raycert.cases.forms import write_ray, write_solid
+    from raycert.cases.scene import frame, pixel_ray
 
     column, _, row = words.partition(",")
     width, height = scene.size

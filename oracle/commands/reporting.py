@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from oracle.commands.output import check_writable
+from raycert.oracle.commands.output import check_writable
 
 HELP = """Write the reports of a certificate: the same as certify's own options do.
 
@@ -50,8 +50,8 @@ def report(certificate: Path, **options: str | None) -> None:
 
 def write_reports(certificate: dict[str, Any], wanted: dict[str, str]) -> None:
     """Write a certificate in each form (a key of WRITERS) to its file; `-` is standard output."""
-    from cases.corpus import write_whole
-    from oracle.reports.write import WRITERS
+    from raycert.cases.corpus import write_whole
+    from raycert.oracle.reports.write import WRITERS
 
     for form, out in wanted.items():
         text = WRITERS[form](certificate)
@@ -64,7 +64,7 @@ def write_reports(certificate: dict[str, Any], wanted: dict[str, str]) -> None:
 def _read(path: Path) -> dict[str, Any]:
     import json
 
-    from oracle.reports.form import BadCertificate, check
+    from raycert.oracle.reports.form import BadCertificate, check
 
     try:
         return check(json.loads(path.read_bytes()))
@@ -77,6 +77,6 @@ def _read(path: Path) -> dict[str, Any]:
 def _print(certificate: dict[str, Any]) -> None:
     from rich.console import Console
 
-    from oracle.report import report as show
+    from raycert.oracle.reports.terminal import report as show
 
     show(certificate, Console(width=None if sys.stdout.isatty() else 120), None)

@@ -1,6 +1,6 @@
 """What the commands on scenes share: reading one, and the reference tracer as a process.
 
-The tracer runs in `python -m reference.batch`: it is asked in JSON and answers with arrays.
+The tracer runs in `python -m reference.arrays`: it is asked in JSON and answers with arrays.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from oracle.commands.listing import BadInput
+from raycert.oracle.commands.listing import BadInput
 
 if TYPE_CHECKING:
-    from cases.scene import Scene
+    from raycert.cases.scene import Scene
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
-COMMAND = ("-m", "reference.batch")
+COMMAND = ("-m", "raycert.reference.arrays")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,8 +51,8 @@ def read(source: str | None, size: str | None) -> tuple[Scene, str]:
     from dataclasses import replace
     from pathlib import Path
 
-    from cases.model import Refused
-    from cases.scene import load, read_size, shipped
+    from raycert.cases.model import Refused
+    from raycert.cases.scene import load, read_size, shipped
 
     if not source:
         raise click.UsageError(f"name a scene: {', '.join(shipped())}, or a file")
@@ -79,7 +79,7 @@ def table() -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from cases.scene import load, shipped
+    from raycert.cases.scene import load, shipped
 
     grid = Table(box=None, pad_edge=False, show_header=False)
     grid.add_column(no_wrap=True)
@@ -139,7 +139,7 @@ def ask(task: dict[str, Any]) -> Started:
 
 def start(scene: Scene, asked: Asked) -> Started:
     """Start the tracer on a picture."""
-    from cases.scene import write_scene
+    from raycert.cases.scene import write_scene
 
     show = "lists" if asked.show == "error" else asked.show
     task = {"task": "render", "show": show, "tracer": asked.tracer, "off": list(asked.off)}

@@ -26,7 +26,7 @@ def serve(name: str, precision: str, numbers: str) -> None:
         import subprocess
         import sys
 
-        raise SystemExit(subprocess.call([sys.executable, "-m", "reference"]))
-    from oracle.service import serve_oracle
+        raise SystemExit(subprocess.call([sys.executable, "-m", "raycert.reference"]))
+    from raycert.oracle.client.service import serve_oracle
 
     serve_oracle(precision, numbers)

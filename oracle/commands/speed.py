@@ -54,15 +54,15 @@ def speed(only: tuple[str, ...], quick: bool, seed: int, file: Path | None) -> N
 
 def measure(only: Sequence[str], quick: bool, seed: int, file: Path | None) -> None:
     """Run the sections named, all without one; print the tables, and write the rows to a file."""
-    from oracle.commands.output import check_writable
-    from oracle.commands.progress import counting
-    from oracle.speed.clock import one_thread
+    from raycert.oracle.commands.output import check_writable
+    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.measure.speed.clock import one_thread
 
     one_thread()
     _needs_numpy()
     if file is not None:
         check_writable(file.parent, "--json")
-    from oracle.speed.run import FULL, QUICK, run, steps
+    from raycert.oracle.measure.speed.run import FULL, QUICK, run, steps
 
     effort = QUICK if quick else FULL
     sections = [name for name in SECTIONS if name in (only or SECTIONS)]
@@ -70,7 +70,7 @@ def measure(only: Sequence[str], quick: bool, seed: int, file: Path | None) -> N
         report = run(sections, effort, seed, advance)
     from rich.console import Console
 
-    from oracle.speed.tables import show
+    from raycert.oracle.measure.speed.tables import show
 
     show(report, Console())
     if file is not None:

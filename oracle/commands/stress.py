@@ -12,10 +12,10 @@ import click
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from oracle.methods.method import Method
-    from oracle.stress.run import Report
-    from oracle.stress.sagitta import Sides
-    from oracle.stress.sweeps import Sweep
+    from raycert.oracle.measure.methods.method import Method
+    from raycert.oracle.measure.stress.run import Report
+    from raycert.oracle.measure.stress.sagitta import Sides
+    from raycert.oracle.measure.stress.sweeps import Sweep
 
 BESIDE = ("reference", "textbook", "oracle")
 """What a client is set beside if no method is named."""
@@ -71,9 +71,9 @@ Exit status: 0 done, 1 interrupted, 2 bad usage, 3 a client could not be run.
 @click.option("--workers", type=click.IntRange(min=1), default=2, show_default=True)
 def stress(**options: Any) -> None:
     """Set the error of many ways to answer rays against how stiff the problem is."""
-    from oracle.commands.output import check_writable
-    from oracle.commands.progress import counting
-    from oracle.stress.run import Plan, causes_to_tell, measure, tell_causes
+    from raycert.oracle.commands.output import check_writable
+    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.measure.stress.run import Plan, causes_to_tell, measure, tell_causes
 
     sweeps = _sweeps(options["sweeps"])
     if options["out"] is not None:
@@ -96,7 +96,7 @@ def stress(**options: Any) -> None:
 
 
 def _sweeps(names: Sequence[str]) -> tuple[Sweep, ...]:
-    from oracle.stress.sweeps import SWEEPS
+    from raycert.oracle.measure.stress.sweeps import SWEEPS
 
     for name in names:
         if name not in SWEEPS:
@@ -108,9 +108,9 @@ def _sweeps(names: Sequence[str]) -> tuple[Sweep, ...]:
 
 def _methods(names: Sequence[str], clients: Sequence[str]) -> tuple[list[Method], list[str]]:
     """Return the methods to run, and notes on those that cannot."""
-    from oracle.client.dialogue import Unusable
-    from oracle.commands.targeting import stop
-    from oracle.methods.catalog import BY_NAME, METHODS, chosen, here
+    from raycert.oracle.client.dialogue import Unusable
+    from raycert.oracle.commands.targeting import stop
+    from raycert.oracle.measure.methods.catalog import BY_NAME, METHODS, chosen, here
 
     for name in names:
         if name not in BY_NAME:
@@ -126,9 +126,9 @@ def _methods(names: Sequence[str], clients: Sequence[str]) -> tuple[list[Method]
 
 def _meshes(report: Report) -> list[Sides]:
     """Return the errors of meshes, as far as the libraries are installed."""
-    from oracle.commands.progress import counting
-    from oracle.methods.catalog import SIDES
-    from oracle.stress.sagitta import CASTERS, curves
+    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.measure.methods.catalog import SIDES
+    from raycert.oracle.measure.stress.sagitta import CASTERS, curves
 
     most = 512 if report.plan.quick else SIDES[-1]
     try:
@@ -142,7 +142,7 @@ def _meshes(report: Report) -> list[Sides]:
 def _show(report: Report, sides: Sequence[Sides]) -> None:
     from rich.console import Console
 
-    from oracle.stress.sagitta import CASTERS, slope
+    from raycert.oracle.measure.stress.sagitta import CASTERS, slope
 
     console = Console(highlight=False)
     for sweep in report.plan.sweeps:
@@ -156,7 +156,7 @@ def _show_sweep(report: Report, sweep: Sweep, console: Console) -> None:
     """Print who breaks where, and who does not. A method with steps to come is left out."""
     from rich.table import Table
 
-    from oracle.stress.ranges import spelled
+    from raycert.oracle.measure.stress.ranges import spelled
 
     grid = Table(box=None, pad_edge=False)
     for heading in ("method", "stable", "sound", "worst k", "wrong"):
@@ -214,7 +214,7 @@ def _causes(report: Report, sweep: Sweep) -> list[str]:
 def _write(report: Report, sides: Sequence[Sides], folder: Path) -> None:
     import json
 
-    from oracle.stress.report import form, table
+    from raycert.oracle.measure.stress.report import form, table
 
     written = [folder / "stress.json", folder / "stress.csv"]
     written[0].write_text(json.dumps(form(report, sides), indent=1, allow_nan=False) + "\n")
@@ -231,9 +231,9 @@ def _write(report: Report, sides: Sequence[Sides], folder: Path) -> None:
 
 def _draw(report: Report, sides: Sequence[Sides], folder: Path) -> list[Path]:
     """Write the pictures: a few methods each, and the forward errors of the first ones."""
-    from oracle.plots.style import save, styled
-    from oracle.plots.sweeps import draw, pages
-    from oracle.stress.report import notes
+    from raycert.oracle.measure.stress.report import notes
+    from raycert.oracle.plots.style import save, styled
+    from raycert.oracle.plots.sweeps import draw, pages
 
     if not report.grounds:
         return []

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 import click
 
 if TYPE_CHECKING:
-    from oracle.client.dialogue import Limits, Target
+    from raycert.oracle.client.dialogue import Limits, Target
 
 BUILT_IN = {
-    "oracle": ("-m", "oracle.commands.main", "serve", "oracle"),
-    "reference": ("-m", "reference"),
+    "oracle": ("-m", "raycert.oracle.commands.main", "serve", "oracle"),
+    "reference": ("-m", "raycert.reference"),
 }
 SECONDS = click.FloatRange(min=0.01, max=86400)
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -44,15 +44,15 @@ def limits_options(function: Function) -> Function:
 
 def limits(options: dict[str, Any]) -> Limits:
     """Return the limits that the options set."""
-    from oracle.client.dialogue import Limits
+    from raycert.oracle.client.dialogue import Limits
 
     return Limits(options["hello_timeout"], options["case_timeout"], options["line_limit"])
 
 
 def aim(words: tuple[str, ...]) -> Target:
     """Return the target that the words name; end with exit status 3 where they name none."""
-    from oracle.client.dialogue import Unusable
-    from oracle.client.target import target
+    from raycert.oracle.client.dialogue import Unusable
+    from raycert.oracle.client.target import target
 
     if len(words) == 1 and words[0] in BUILT_IN:
         words = (sys.executable, *BUILT_IN[words[0]])

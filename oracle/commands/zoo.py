@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-    from cases.corpus import Corpus
-    from oracle.zoo.matrix import Line
+    from raycert.cases.corpus import Corpus
+    from raycert.oracle.zoo.matrix import Line
 
 HELP = """Try planted wrong tracers on the golden rows: which family refuses which fault, and why.
 
@@ -54,8 +54,8 @@ def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: P
     """Try planted wrong tracers on the golden rows."""
     from rich.console import Console
 
-    from cases.corpus import GOLDEN, BadCorpus, read_corpus
-    from oracle.zoo.catalog import BY_NAME
+    from raycert.cases.corpus import GOLDEN, BadCorpus, read_corpus
+    from raycert.oracle.zoo.catalog import BY_NAME
 
     if unknown := [name for name in names if name not in BY_NAME]:
         raise click.BadParameter(f"no such fault: {', '.join(unknown)}", param_hint="--fault")
@@ -77,11 +77,11 @@ def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: P
 
 
 def _write_smoke(golden: Path, folder: Path) -> None:
-    from cases.corpus import read_corpus, write_whole
-    from cases.formats import FORMATS
-    from oracle.commands.progress import counting
-    from oracle.zoo.catalog import FAULTS
-    from oracle.zoo.cover import chosen
+    from raycert.cases.corpus import read_corpus, write_whole
+    from raycert.cases.formats import FORMATS
+    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.zoo.catalog import FAULTS
+    from raycert.oracle.zoo.cover import chosen
 
     for precision in FORMATS:
         with counting(f"trying in {precision}", len(FAULTS)) as advance:
@@ -91,9 +91,9 @@ def _write_smoke(golden: Path, folder: Path) -> None:
 
 
 def _lines(corpus: Corpus, names: Sequence[str]) -> list[Line]:
-    from oracle.commands.progress import counting
-    from oracle.zoo.catalog import BY_NAME
-    from oracle.zoo.matrix import Bench, line
+    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.zoo.catalog import BY_NAME
+    from raycert.oracle.zoo.matrix import Bench, line
 
     bench, lines = Bench(corpus.rows, corpus.format), []
     with counting("trying", len(names)) as advance:
@@ -106,8 +106,8 @@ def _lines(corpus: Corpus, names: Sequence[str]) -> list[Line]:
 def _write(corpus: Corpus, lines: Sequence[Line], out: Path) -> None:
     import json
 
-    from cases.corpus import write_whole
-    from oracle.zoo.matrix import form
+    from raycert.cases.corpus import write_whole
+    from raycert.oracle.zoo.matrix import form
 
     write_whole(out, (json.dumps(form(corpus, lines), indent=1) + "\n").encode())
 

@@ -1,8 +1,8 @@
 """The hunt tried on every planted fault of the zoo, with the golden rows withheld.
 
-    python -m oracle.hunt.campaign                     every fault, a minute each at most
-    python -m oracle.hunt.campaign no-clip diameter    these
-    python -m oracle.hunt.campaign --time 20 --json campaign.json
+    python -m raycert.oracle.hunt.campaign                     every fault, a minute each at most
+    python -m raycert.oracle.hunt.campaign no-clip diameter    these
+    python -m raycert.oracle.hunt.campaign --time 20 --json campaign.json
 
 A fault that is granted `stable` shows in no answer that the level can refuse: it is hunted for its
 convention, or in the range tier. A case counts only if the tracer that the fault was planted in has
@@ -20,19 +20,19 @@ from pathlib import Path
 
 import click
 
-from cases.protocol import Reply
-from oracle.client.inprocess import InProcess
-from oracle.hunt.executors import Here
-from oracle.hunt.keep import case
-from oracle.hunt.look import Asked, Looker
-from oracle.hunt.scene import Scene, numbers
-from oracle.hunt.search import Budget, Finding, hunt
-from oracle.hunt.served import spec
-from oracle.hunt.simple import cost
-from oracle.hunt.unit import Job, work
-from oracle.zoo.catalog import BY_NAME, FAULTS
-from oracle.zoo.fault import Fault
-from oracle.zoo.tracer import BASE
+from raycert.cases.numbers import Scene, numbers
+from raycert.cases.protocol import Reply
+from raycert.oracle.client.inprocess import InProcess
+from raycert.oracle.hunt.executors import Here
+from raycert.oracle.hunt.keep import case
+from raycert.oracle.hunt.look import Asked, Looker
+from raycert.oracle.hunt.search import Budget, Finding, hunt
+from raycert.oracle.hunt.served import spec
+from raycert.oracle.hunt.simple import cost
+from raycert.oracle.hunt.unit import Job, work
+from raycert.oracle.zoo.catalog import BY_NAME, FAULTS
+from raycert.oracle.zoo.fault import Fault
+from raycert.oracle.zoo.tracer import BASE
 
 SMALL = 12
 UNIT = 400

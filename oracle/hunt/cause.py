@@ -10,10 +10,10 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from cases.model import Solid, Tree, type_of
-from oracle.hunt.look import Fault
-from oracle.hunt.scene import Scene
-from oracle.trace import trace
+from raycert.cases.model import Solid, Tree, type_of
+from raycert.cases.numbers import Scene
+from raycert.oracle.exact.trace import trace
+from raycert.oracle.hunt.look import Fault
 
 SILENT = ("error", "crash", "unsupported", "bad-line", "unrepeated")
 UNREPEATED = "unrepeated"

@@ -12,8 +12,8 @@ import time
 from typing import Any
 from uuid import uuid4
 
-from oracle.hunt.executors import ATTEMPTS, Lost, Work
-from oracle.hunt.unit import Done, Unit
+from raycert.oracle.hunt.executors import ATTEMPTS, Lost, Work
+from raycert.oracle.hunt.unit import Done, Unit
 
 POLL = 0.01
 CONNECT = 10.0

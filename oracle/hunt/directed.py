@@ -13,17 +13,17 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from cases.corpus import read_manifest
-from cases.dice import Dice
-from cases.formats import FORMATS, Format
-from cases.forms import read_ray, read_solid
-from cases.jitter import jittered
-from oracle.hunt.look import Seen
-from oracle.hunt.moves import MOVES, form, on_lattice, overflow, pick
-from oracle.hunt.placed import kept
-from oracle.hunt.scene import Scene, between, numbers, ordinal
-from oracle.hunt.unit import Field
-from oracle.witness.sample import case as sampled
+from raycert.cases.corpus import read_manifest
+from raycert.cases.dice import Dice
+from raycert.cases.formats import FORMATS, Format
+from raycert.cases.forms import read_ray, read_solid
+from raycert.cases.jitter import jittered
+from raycert.cases.numbers import Scene, between, numbers, ordinal
+from raycert.cases.sample import case as sampled
+from raycert.oracle.hunt.look import Seen
+from raycert.oracle.hunt.moves import MOVES, form, on_lattice, overflow, pick
+from raycert.oracle.hunt.placed import kept
+from raycert.oracle.hunt.unit import Field
 
 NEW, MOVED, PARTS = 48, 12, 16
 """Fresh scenes of a round, scenes moved in it, and parts that a way between two is cut in."""

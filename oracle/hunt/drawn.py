@@ -18,9 +18,9 @@ from math import log2
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from oracle.hunt.scene import Scene
-from oracle.hunt.session import TimeUp
-from oracle.hunt.unit import Failing, Field, Spent, coarse
+from raycert.cases.numbers import Scene
+from raycert.oracle.hunt.session import TimeUp
+from raycert.oracle.hunt.unit import Failing, Field, Spent, coarse
 
 if TYPE_CHECKING:
     from hypothesis import settings
@@ -146,7 +146,7 @@ def _height(x: float) -> float:
 def _scenes(place: Field) -> Any:
     from hypothesis import strategies
 
-    from cases.strategies import scenes
+    from raycert.cases.strategies import scenes
 
     some = scenes(6, place.solids, place.looker.hello.format)
 

@@ -14,7 +14,7 @@ from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import get_context
 from typing import Protocol
 
-from oracle.hunt.unit import Done, Unit
+from raycert.oracle.hunt.unit import Done, Unit
 
 Work = Callable[[Unit], Done]
 ATTEMPTS = 4

@@ -13,17 +13,17 @@ from math import inf, isinf
 from pathlib import Path
 from typing import Any
 
-from cases.case import Case, Family
-from cases.corpus import MANIFEST, encode_rows, manifest, read_manifest, write_whole
-from cases.formats import Format
-from cases.forms import write_ray, write_solid
-from cases.protocol import Reply
-from cases.row import GoldenRow
-from oracle.client.dialogue import Outcome
-from oracle.golden import USUAL, golden_row
-from oracle.hunt.look import Looker
-from oracle.hunt.scene import Scene
-from oracle.hunt.search import Finding, Hunt
+from raycert.cases.case import Case, Family
+from raycert.cases.corpus import MANIFEST, encode_rows, manifest, read_manifest, write_whole
+from raycert.cases.formats import Format
+from raycert.cases.forms import write_ray, write_solid
+from raycert.cases.numbers import Scene
+from raycert.cases.protocol import Reply
+from raycert.cases.row import GoldenRow
+from raycert.oracle.client.dialogue import Outcome
+from raycert.oracle.corpus.golden import USUAL, golden_row
+from raycert.oracle.hunt.look import Looker
+from raycert.oracle.hunt.search import Finding, Hunt
 
 REPORT = "hunt.json"
 Json = dict[str, Any]

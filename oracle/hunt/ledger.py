@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from oracle.hunt.unit import Done
+from raycert.oracle.hunt.unit import Done
 
 
 class Ledger:

@@ -1,6 +1,6 @@
 """Is an answer wrong on the level asked? Cheap for the many that are right, exact for all.
 
-What is asked for is decided as `oracle.grade` decides it, on cases that decide the level: the exact
+What is asked for is decided as `certify.grading` does, on cases that decide the level: the exact
 list first; an answer whose ends are among the two numbers around the exact ones is `stable`; only
 for others are the faces moved.
 """
@@ -10,23 +10,32 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 
-from cases.accept import Accept
-from cases.case import Case, Family, Tier
-from cases.lattice import is_lattice
-from cases.model import SOLIDS, TYPE_NAMES, HalfSpace, Leaf, Ray, Sphere, Tree, leaves
-from cases.protocol import Hello, Reply, convention
-from cases.row import GoldenRow
-from oracle.answer import Answer, First, Listed, answer
-from oracle.client.dialogue import Outcome
-from oracle.client.process import Failure
-from oracle.decisive import decisive
-from oracle.faces import touch
-from oracle.golden import golden_row
-from oracle.grade import grade
-from oracle.hunt.scene import Scene, is_usual, types
-from oracle.judge import LEVELS, Judge, Level
-from oracle.moved import LAST_STEP
-from oracle.zoo.matrix import kind
+from raycert.cases.accept import Accept
+from raycert.cases.case import Case, Family, Tier
+from raycert.cases.lattice import is_lattice
+from raycert.cases.model import (
+    SOLIDS,
+    HalfSpace,
+    Leaf,
+    Ray,
+    Sphere,
+    Tree,
+    leaves,
+    types,
+)
+from raycert.cases.numbers import Scene, is_usual
+from raycert.cases.protocol import Hello, Reply, convention
+from raycert.cases.row import GoldenRow
+from raycert.oracle.certify.grading import grade
+from raycert.oracle.client.dialogue import Outcome
+from raycert.oracle.client.process import Failure
+from raycert.oracle.corpus.golden import golden_row
+from raycert.oracle.exact.faces import touch
+from raycert.oracle.judge.answer import Answer, First, Listed, answer
+from raycert.oracle.judge.decisive import decisive
+from raycert.oracle.judge.levels import LEVELS, Judge, Level
+from raycert.oracle.judge.moved import LAST_STEP
+from raycert.oracle.zoo.matrix import kind
 
 COARSE = (8, 12, 16, 20, *range(28, LAST_STEP, 8), LAST_STEP)
 """The steps of k = 1, 4, 16, 64, 1024, ...: as near as the search has to know a backward error."""
@@ -82,7 +91,7 @@ class Looker:
 
     def wants(self, scene: Scene) -> bool:
         """Tell whether a scene is asked: its types are declared and wanted, its numbers usual."""
-        names = {TYPE_NAMES[kind] for kind in types(scene.solid)}
+        names = types(scene.solid)
         if not names <= {*self.solids} & {*self.hello.solids}:
             return False
         return self.asked.far or is_usual(scene, self.hello.format)

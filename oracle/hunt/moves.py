@@ -13,9 +13,9 @@ from dataclasses import replace
 from math import isinf, ldexp
 from typing import Any, TypeVar
 
-from cases.dice import Dice
-from cases.formats import BINARY64, Format
-from cases.model import (
+from raycert.cases.dice import Dice
+from raycert.cases.formats import BINARY64, Format
+from raycert.cases.model import (
     Cylinder,
     Difference,
     HalfSpace,
@@ -30,8 +30,7 @@ from cases.model import (
     Vector,
     leaves,
 )
-from oracle.hunt.placed import axis_of, change, kept, moved, plus, scaled
-from oracle.hunt.scene import (
+from raycert.cases.numbers import (
     Scene,
     at,
     is_usual,
@@ -41,9 +40,10 @@ from oracle.hunt.scene import (
     with_number,
     with_numbers,
 )
-from oracle.rounding import nearest
-from oracle.surd import Surd
-from oracle.trace import trace
+from raycert.oracle.exact.rounding import nearest
+from raycert.oracle.exact.surd import Surd
+from raycert.oracle.exact.trace import trace
+from raycert.oracle.hunt.placed import axis_of, change, kept, moved, plus, scaled
 
 T = TypeVar("T")
 Move = Callable[[Scene, Dice, Format], list[Scene]]

@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import Any
 
-from cases.formats import Format
-from cases.model import (
+from raycert.cases.formats import Format
+from raycert.cases.model import (
     Difference,
     HalfSpace,
     Intersection,
@@ -19,7 +19,7 @@ from cases.model import (
     Union,
     Vector,
 )
-from oracle.hunt.scene import Scene, rounded
+from raycert.cases.numbers import Scene, rounded
 
 
 def kept(found: Iterable[Scene | None], fmt: Format) -> list[Scene]:

@@ -14,16 +14,16 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf
 
-from oracle.client.dialogue import Outcome, Unusable
-from oracle.hunt.cause import UNREPEATED, Cause, cause
-from oracle.hunt.executors import Executor, Lost
-from oracle.hunt.ledger import Ledger
-from oracle.hunt.look import Fault, Looker
-from oracle.hunt.scene import Scene
-from oracle.hunt.session import Clock, Session, TimeUp
-from oracle.hunt.shrink import Shrinker
-from oracle.hunt.simple import cost
-from oracle.hunt.unit import CASES, EACH, Done, Failing, Job, Unit, Worst, coarse
+from raycert.cases.numbers import Scene
+from raycert.oracle.client.dialogue import Outcome, Unusable
+from raycert.oracle.hunt.cause import UNREPEATED, Cause, cause
+from raycert.oracle.hunt.executors import Executor, Lost
+from raycert.oracle.hunt.ledger import Ledger
+from raycert.oracle.hunt.look import Fault, Looker
+from raycert.oracle.hunt.session import Clock, Session, TimeUp
+from raycert.oracle.hunt.shrink import Shrinker
+from raycert.oracle.hunt.simple import cost
+from raycert.oracle.hunt.unit import CASES, EACH, Done, Failing, Job, Unit, Worst, coarse
 
 LINGER = 2.0
 """Seconds after the last for units to give what they have."""

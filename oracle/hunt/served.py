@@ -1,9 +1,9 @@
-"""The faults of the zoo as targets: `oracle.hunt.served:no_clip` is the fault `no-clip`."""
+"""The faults of the zoo as targets: `raycert.oracle.hunt.served:no_clip` is the fault `no-clip`."""
 
 from __future__ import annotations
 
-from oracle.zoo.catalog import BY_NAME
-from oracle.zoo.fault import Intersect
+from raycert.oracle.zoo.catalog import BY_NAME
+from raycert.oracle.zoo.fault import Intersect
 
 
 def __getattr__(name: str) -> Intersect:

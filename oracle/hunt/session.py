@@ -11,9 +11,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import inf
 
-from cases.protocol import Hello
-from oracle.client import harness
-from oracle.client.dialogue import (
+from raycert.cases.numbers import Scene
+from raycert.cases.protocol import Hello
+from raycert.oracle.client import harness
+from raycert.oracle.client.dialogue import (
     Dialogue,
     Limits,
     Outcome,
@@ -22,8 +23,7 @@ from oracle.client.dialogue import (
     Unusable,
     fresh_ids,
 )
-from oracle.client.process import Broken, Failure
-from oracle.hunt.scene import Scene
+from raycert.oracle.client.process import Broken, Failure
 
 STARTS = 3
 WINDOW = 64

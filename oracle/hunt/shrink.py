@@ -9,11 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 
-from cases.dice import Dice
-from cases.formats import Format
-from oracle.hunt.placed import kept
-from oracle.hunt.scene import Scene, numbers, types
-from oracle.hunt.simple import as_wholes, by_number, by_vectors, cost, fewer_parts, small
+from raycert.cases.dice import Dice
+from raycert.cases.formats import Format
+from raycert.cases.model import nodes
+from raycert.cases.numbers import Scene, numbers
+from raycert.oracle.hunt.placed import kept
+from raycert.oracle.hunt.simple import as_wholes, by_number, by_vectors, cost, fewer_parts, small
 
 Fails = Callable[[Sequence[Scene]], Sequence[bool]]
 DRAWS = 320
@@ -57,7 +58,7 @@ class Shrinker:
         return self.best != before
 
     def _draw(self) -> None:
-        shape = tuple(types(self.best.solid))
+        shape = tuple(map(type, nodes(self.best.solid)))
         if shape not in self._drawn:
             self._drawn.add(shape)
             dice = Dice(f"small {[kind.__name__ for kind in shape]}")

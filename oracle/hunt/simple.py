@@ -14,9 +14,9 @@ from dataclasses import replace
 from math import copysign, frexp, hypot, ldexp
 from typing import Any
 
-from cases.dice import Dice
-from cases.formats import Format
-from cases.model import (
+from raycert.cases.dice import Dice
+from raycert.cases.formats import Format
+from raycert.cases.model import (
     Cylinder,
     HalfSpace,
     InfiniteCylinder,
@@ -28,10 +28,11 @@ from cases.model import (
     Tree,
     Vector,
     leaves,
+    nodes,
 )
-from oracle.hunt.moves import pick
-from oracle.hunt.placed import axis_of, change, moved, plus, scaled
-from oracle.hunt.scene import Scene, numbers, types, with_number, with_numbers
+from raycert.cases.numbers import Scene, numbers, with_number, with_numbers
+from raycert.oracle.hunt.moves import pick
+from raycert.oracle.hunt.placed import axis_of, change, moved, plus, scaled
 
 Cost = tuple[int, int, int, int]
 FACES: dict[type[Solid], int] = {
@@ -48,7 +49,7 @@ SMALL = (0.0, 0.0, 0.0, 1.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0)
 
 def cost(scene: Scene) -> Cost:
     """Return how far from simple a case is."""
-    kinds = list(types(scene.solid))
+    kinds = list(map(type, nodes(scene.solid)))
     faces = sum(FACES.get(kind, 0) for kind in kinds)
     count = sum(kind in FACES for kind in kinds)
     return count, len(kinds), faces, sum(map(number_cost, numbers(scene)))

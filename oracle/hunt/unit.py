@@ -11,13 +11,13 @@ from dataclasses import dataclass, field
 from math import inf
 from pathlib import Path
 
-from cases.corpus import GOLDEN
-from cases.model import SOLIDS
-from oracle.client.dialogue import Limits, Outcome, Target
-from oracle.fresh import possible
-from oracle.hunt.look import Asked, Fault, Looker, Seen
-from oracle.hunt.scene import Scene
-from oracle.hunt.session import Clock, Session, TimeUp
+from raycert.cases.corpus import GOLDEN
+from raycert.cases.model import SOLIDS
+from raycert.cases.numbers import Scene
+from raycert.oracle.client.dialogue import Limits, Outcome, Target
+from raycert.oracle.corpus.fresh import possible
+from raycert.oracle.hunt.look import Asked, Fault, Looker, Seen
+from raycert.oracle.hunt.session import Clock, Session, TimeUp
 
 CASES = 1000
 """Cases of a unit."""
@@ -142,8 +142,8 @@ class Field:
 
 def work(job: Job, unit: Unit) -> Done:
     """Do a unit. On `KeyboardInterrupt` what is known is returned, cut. Raises `Unusable`."""
-    from oracle.hunt.directed import directed
-    from oracle.hunt.drawn import drawn
+    from raycert.oracle.hunt.directed import directed
+    from raycert.oracle.hunt.drawn import drawn
 
     ways = {"directed": directed, "drawn": drawn}
     place = Field(job, unit)

@@ -12,18 +12,18 @@ from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from typing import Literal
 
-from cases.accept import Numbers
-from cases.formats import BINARY64
-from cases.model import Refused, Solid, Tree, type_of
-from cases.protocol import Hello, Reply
-from oracle.answer import Answer, First, Listed, YesNo, answer
-from oracle.client.dialogue import Limits, Outcome, Question, Target, Unusable
-from oracle.client.harness import Failure, Interrupted, greet, run
-from oracle.judge import Judge
-from oracle.map.inputs import Case
-from oracle.map.plan import At, Plan
-from oracle.map.topology import Topology, counted, rounded, topology
-from oracle.scene_errors import error
+from raycert.cases.accept import Numbers
+from raycert.cases.formats import BINARY64
+from raycert.cases.model import Refused, types
+from raycert.cases.protocol import Hello, Reply
+from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target, Unusable
+from raycert.oracle.client.harness import Failure, Interrupted, greet, run
+from raycert.oracle.judge.answer import Answer, First, Listed, YesNo, answer
+from raycert.oracle.judge.levels import Judge
+from raycert.oracle.judge.pixels import error
+from raycert.oracle.map.inputs import Case
+from raycert.oracle.map.plan import At, Plan
+from raycert.oracle.map.topology import Topology, counted, rounded, topology
 
 Show = Literal["exact", "answer", "k", "ulps", "disagreement"]
 SHOWS: tuple[Show, ...] = ("exact", "answer", "k", "ulps", "disagreement")
@@ -124,15 +124,8 @@ def _check(hello: Hello, plan: Plan) -> None:
     if hello.precision != fmt.name:
         raise Unfit(f"the target is of {hello.precision}, the case of {fmt.name}")
     solid, _ = plan.inputs.case({})
-    if missing := sorted(set(_types(solid)) - {*hello.solids}):
+    if missing := sorted(types(solid) - {*hello.solids}):
         raise Unfit(f"the target declares no {', '.join(missing)}")
-
-
-def _types(solid: Solid) -> Iterator[str]:
-    yield type_of(solid)
-    if isinstance(solid, Tree):
-        for part in solid.of:
-            yield from _types(part)
 
 
 def _asked(

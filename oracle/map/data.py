@@ -7,10 +7,10 @@ import io
 from math import isinf
 from typing import Any
 
-from cases.protocol import Reply
-from oracle.map.cells import Cell, Map
-from oracle.map.legend import class_of
-from oracle.map.plan import At
+from raycert.cases.protocol import Reply
+from raycert.oracle.map.cells import Cell, Map
+from raycert.oracle.map.legend import class_of
+from raycert.oracle.map.plan import At
 
 Json = dict[str, Any]
 VERSION = 1

@@ -13,9 +13,9 @@ from difflib import get_close_matches
 from fractions import Fraction
 from typing import Any
 
-from cases.formats import BINARY64, Format
-from cases.forms import Json, read_ray, read_solid, write_ray, write_solid
-from cases.model import Ray, Refused, Solid
+from raycert.cases.formats import BINARY64, Format
+from raycert.cases.forms import Json, read_ray, read_solid, write_ray, write_solid
+from raycert.cases.model import Ray, Refused, Solid
 
 STEP = re.compile(r"\.?([a-z_]+)|\[(\d+)\]")
 Keys = tuple[str | int, ...]

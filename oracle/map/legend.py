@@ -7,9 +7,20 @@ from collections.abc import Collection, Iterator
 from math import inf, isinf
 from textwrap import wrap
 
-from oracle.map.cells import BEYOND, EXACT, FAITHFUL, FEW, MANY, NUMBERS, RIGHT, WITHIN, Cell, Map
-from oracle.map.plan import At
-from oracle.map.topology import KINDS, Kind, between
+from raycert.oracle.map.cells import (
+    BEYOND,
+    EXACT,
+    FAITHFUL,
+    FEW,
+    MANY,
+    NUMBERS,
+    RIGHT,
+    WITHIN,
+    Cell,
+    Map,
+)
+from raycert.oracle.map.plan import At
+from raycert.oracle.map.topology import KINDS, Kind, between
 
 ORDER = (
     EXACT,

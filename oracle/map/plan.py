@@ -15,11 +15,11 @@ from functools import cached_property
 from math import inf, ldexp
 from typing import Literal
 
-from cases.formats import Format
-from cases.model import Refused
-from oracle.map.inputs import Case, Direction, Inputs
-from oracle.rounding import enclose
-from oracle.surd import fraction
+from raycert.cases.formats import Format
+from raycert.cases.model import Refused
+from raycert.oracle.exact.rounding import enclose
+from raycert.oracle.exact.surd import fraction
+from raycert.oracle.map.inputs import Case, Direction, Inputs
 
 Unit = Literal["ulps", "units", "relative"]
 UNITS: tuple[Unit, ...] = ("ulps", "units", "relative")
@@ -111,7 +111,7 @@ def moved(x: float, by: Fraction, unit: Unit, fmt: Format) -> float:
 def on_grid(x: float, steps: int, fmt: Format) -> float:
     """Return the number so many places above x on the grid; infinite beyond its ends.
 
-    >>> from cases.formats import BINARY64
+    >>> from raycert.cases.formats import BINARY64
     >>> on_grid(1.0, 1, BINARY64) == 1 + 2**-52, on_grid(1.0, -1, BINARY64) == 1 - 2**-53
     (True, True)
     """

@@ -11,12 +11,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
-from cases.formats import Format
-from cases.model import Tree, leaves
-from oracle.faces import Place, place
-from oracle.map.inputs import Case
-from oracle.rounding import expected
-from oracle.trace import Answer, trace
+from raycert.cases.formats import Format
+from raycert.cases.model import Tree, leaves
+from raycert.oracle.exact.faces import Place, place
+from raycert.oracle.exact.rounding import expected
+from raycert.oracle.exact.trace import Answer, trace
+from raycert.oracle.map.inputs import Case
 
 Kind = Literal["double root", "rim", "coincident faces", "start on a face", "parallel to a face"]
 KINDS: tuple[Kind, ...] = (

@@ -23,8 +23,8 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import Normal, Stroke
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from oracle.map.cells import NUMBERS, Cell, Map
-from oracle.map.legend import (
+from raycert.oracle.map.cells import NUMBERS, Cell, Map
+from raycert.oracle.map.legend import (
     ORDER,
     axis_label,
     class_of,
@@ -38,9 +38,9 @@ from oracle.map.legend import (
     subtitle,
     thin,
 )
-from oracle.map.plan import At
-from oracle.map.topology import Kind
-from oracle.plots.style import DPI, FAINT, INK, PAPER, figure, plain, styled
+from raycert.oracle.map.plan import At
+from raycert.oracle.map.topology import Kind
+from raycert.oracle.plots.style import DPI, FAINT, INK, PAPER, figure, plain, styled
 
 WIDTH, HEIGHT = 10.4, 6.4
 SQUARE = (0.085, 0.115, 0.475, 0.772)
@@ -56,7 +56,7 @@ REST, FAILED, REFUSED, ENDLESS = "#b4b4b4", "#4a1020", "#e2e2e2", "#c21f1f"
 DIFFERENCES = (
     "#f3f2ee", "#d3e6f2", "#9cc3e0", "#f7dfa8", "#e3d3ee", "#3f78ad", "#d2691e", "#8c1c5a",
 )  # fmt: skip
-"""By class of `oracle.map.legend.ORDER`."""
+"""By class of `raycert.oracle.map.legend.ORDER`."""
 RIGHT_TO_WRONG = ("#fbf9ec", "#f5e6a9", "#eebf6b", "#d98a55", "#a8505f", "#64295f", "#2a0f3f")
 CURVES: dict[Kind, tuple[str, Any]] = {
     "double root": ("#000000", "-"),

@@ -16,9 +16,9 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from oracle.bench.rows import Row, pareto
-from oracle.plots.layout import apart
-from oracle.plots.style import FAINT, INK, LOOKS, PAPER, decades, figure, save, styled
+from raycert.oracle.measure.bench.rows import Row, pareto
+from raycert.oracle.plots.layout import apart
+from raycert.oracle.plots.style import FAINT, INK, LOOKS, PAPER, decades, figure, save, styled
 
 LEAST_ULPS, LEAST_K = 0.5, 1 / 16
 FARTHEST = 1e24

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from oracle.stress.sweeps import Sweep
+from raycert.oracle.measure.stress.sweeps import Sweep
 
 
 @dataclass(frozen=True, slots=True)

@@ -21,12 +21,12 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from oracle.plots.scale import Scale, spaced
-from oracle.plots.style import FAINT, GRID, INK, SERIES, Look, figure, styled
-from oracle.stress.ranges import MOST
-from oracle.stress.run import Curve, Report
-from oracle.stress.sagitta import CASTERS, Sides, slope
-from oracle.stress.sweeps import Sweep
+from raycert.oracle.measure.stress.ranges import MOST
+from raycert.oracle.measure.stress.run import Curve, Report
+from raycert.oracle.measure.stress.sagitta import CASTERS, Sides, slope
+from raycert.oracle.measure.stress.sweeps import Sweep
+from raycert.oracle.plots.scale import Scale, spaced
+from raycert.oracle.plots.style import FAINT, GRID, INK, SERIES, Look, figure, styled
 
 Field = Literal["strict", "ulps"]
 FIRST = ("reference", "textbook", "determinant", "q-root", "shift", "oracle")

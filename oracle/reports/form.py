@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from oracle.certificate import CERTIFICATE_VERSION
+from raycert.oracle.certify.certificate import CERTIFICATE_VERSION
 
 Json = dict[str, Any]
 FIELDS: dict[str, type | tuple[type, ...]] = {

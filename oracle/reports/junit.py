@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from oracle.reports.reading import (
+from raycert.oracle.reports.reading import (
     asked,
     by_family,
     failing,
@@ -19,7 +19,7 @@ from oracle.reports.reading import (
     surprises,
     verdict,
 )
-from oracle.reports.text import clean, count, intervals
+from raycert.oracle.reports.text import clean, count, intervals
 
 Json = dict[str, Any]
 SHOWN = 20

@@ -8,8 +8,8 @@ from __future__ import annotations
 from html import escape
 from typing import Any
 
-from oracle.judge import LEVELS
-from oracle.reports.reading import (
+from raycert.oracle.judge.levels import LEVELS
+from raycert.oracle.reports.reading import (
     by_family,
     failing,
     fault,
@@ -22,7 +22,7 @@ from oracle.reports.reading import (
     verdict,
     windows,
 )
-from oracle.reports.text import clean, count, intervals
+from raycert.oracle.reports.text import clean, count, intervals
 
 Json = dict[str, Any]
 FAMILIES, ROWS = 20, 5

@@ -13,8 +13,8 @@ from math import ceil, floor, frexp, inf, isfinite, log10
 from typing import Any
 from xml.etree.ElementTree import Element
 
-from cases.formats import Format
-from oracle.reports.svg import GUTTER, MIDDLE, PLOT, WIDTH, el, label
+from raycert.cases.formats import Format
+from raycert.oracle.reports.svg import GUTTER, MIDDLE, PLOT, WIDTH, el, label
 
 Json = dict[str, Any]
 Number = Fraction | float

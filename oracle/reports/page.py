@@ -7,10 +7,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from cases.table import PROBLEM_1, PROBLEM_2
-from oracle.judge import LEVELS
-from oracle.reports.picture import pictures
-from oracle.reports.reading import (
+from raycert.cases.table import PROBLEM_1, PROBLEM_2
+from raycert.oracle.judge.levels import LEVELS
+from raycert.oracle.reports.picture import pictures
+from raycert.oracle.reports.reading import (
     asked,
     by_family,
     failing,
@@ -26,9 +26,9 @@ from oracle.reports.reading import (
     verdict,
     windows,
 )
-from oracle.reports.standing import standing
-from oracle.reports.template import render
-from oracle.reports.text import clean, count, intervals, number
+from raycert.oracle.reports.standing import standing
+from raycert.oracle.reports.template import render
+from raycert.oracle.reports.text import clean, count, intervals, number
 
 Json = dict[str, Any]
 LISTED, AT_MOST = 100, 4000

@@ -8,13 +8,23 @@ from math import frexp
 from typing import Any
 from xml.etree.ElementTree import Element
 
-from cases.formats import FORMATS
-from cases.forms import read_ray, read_solid
-from cases.model import Refused
-from oracle.reports.numberline import ROW, Axis, Close, Lists, bars, close, ticks, whole
-from oracle.reports.scene import ASPECT, Scene, scene
-from oracle.reports.svg import GUTTER, MIDDLE, PLOT, WIDTH, drawing, el, label, path, spelled
-from oracle.reports.text import clean
+from raycert.cases.formats import FORMATS
+from raycert.cases.forms import read_ray, read_solid
+from raycert.cases.model import Refused
+from raycert.oracle.reports.numberline import ROW, Axis, Close, Lists, bars, close, ticks, whole
+from raycert.oracle.reports.scene import ASPECT, Scene, scene
+from raycert.oracle.reports.svg import (
+    GUTTER,
+    MIDDLE,
+    PLOT,
+    WIDTH,
+    drawing,
+    el,
+    label,
+    path,
+    spelled,
+)
+from raycert.oracle.reports.text import clean
 
 Json = dict[str, Any]
 TALL = PLOT * ASPECT

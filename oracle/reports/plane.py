@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from math import hypot
 
-from cases.model import HalfSpace, Leaf, Slab, Sphere, Vector
+from raycert.cases.model import HalfSpace, Leaf, Slab, Sphere, Vector
 
 OFF_AXIS = 0.6
 """From this share of the radius on, a ray is seen from the side that shows how far it passes."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from oracle.judge import LEVELS
-from oracle.reports.text import SHORT, clean, count, intervals
+from raycert.oracle.judge.levels import LEVELS
+from raycert.oracle.reports.text import SHORT, clean, count, intervals
 
 Json = dict[str, Any]
 State = Literal["granted", "part", "accepted", "refused", "interrupted"]

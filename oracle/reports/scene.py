@@ -12,8 +12,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from cases.formats import BINARY64
-from cases.model import (
+from raycert.cases.formats import BINARY64
+from raycert.cases.model import (
     HalfSpace,
     InfiniteCylinder,
     Leaf,
@@ -26,9 +26,9 @@ from cases.model import (
     Vector,
     leaves,
 )
-from oracle.reports.plane import Plane, anchor, dot, minus, norm, planes, times
-from oracle.rounding import expected
-from oracle.trace import trace
+from raycert.oracle.exact.rounding import expected
+from raycert.oracle.exact.trace import trace
+from raycert.oracle.reports.plane import Plane, anchor, dot, minus, norm, planes, times
 
 Exact = tuple[Fraction, Fraction, Fraction]
 ASPECT = 0.44

@@ -8,7 +8,7 @@ from __future__ import annotations
 from base64 import b64encode
 from typing import Any
 
-from oracle.reports.text import clean
+from raycert.oracle.reports.text import clean
 
 Json = dict[str, Any]
 

@@ -17,7 +17,7 @@ def render(
     """Return the page that a template of this package makes of values and of style sheets."""
     from jinja2 import Environment, StrictUndefined
 
-    here = files("oracle.reports")
+    here = files("raycert.oracle.reports")
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )

@@ -12,9 +12,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from cases.model import Cylinder, InfiniteCylinder, Leaf, Ray, Slab, Solid, Tree, Vector
-from oracle.reports.plane import Plane, crosswise, lengthwise
-from oracle.reports.scene import Exact, Scene, exact, pivot, seen
+from raycert.cases.model import Cylinder, InfiniteCylinder, Leaf, Ray, Slab, Solid, Tree, Vector
+from raycert.oracle.reports.plane import Plane, crosswise, lengthwise
+from raycert.oracle.reports.scene import Exact, Scene, exact, pivot, seen
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from oracle.reports.junit import junit
-from oracle.reports.markdown import markdown
-from oracle.reports.page import page
+from raycert.oracle.reports.junit import junit
+from raycert.oracle.reports.markdown import markdown
+from raycert.oracle.reports.page import page
 
 Json = dict[str, Any]
 WRITERS: dict[str, Callable[[Json], str]] = {"junit": junit, "markdown": markdown, "html": page}

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from oracle.witness.frame import Line
-from oracle.witness.prism import MARGIN, Body, Floats
+from raycert.oracle.witness.frame import Line
+from raycert.oracle.witness.prism import MARGIN, Body, Floats
 
 BLIND = 1.1e-5
 """trimesh skips faces with |normal . direction| <= 1e-5; a tenth more for its rounding."""

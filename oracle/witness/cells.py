@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from cases.model import Difference, Intersection, Leaf, Solid, Union
+from raycert.cases.model import Difference, Intersection, Leaf, Solid, Union
 
 Run = tuple[int, int | None]
 """The indices of the first and the last point of a run of cells; None: it never ends."""

@@ -12,11 +12,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from time import perf_counter
 
-from cases.dice import Dice
-from cases.formats import BINARY64
-from cases.model import Cylinder, Ray, Vector
-from oracle.witness.meshes import sandwich
-from oracle.witness.prism import Fineness
+from raycert.cases.dice import Dice
+from raycert.cases.formats import BINARY64
+from raycert.cases.model import Cylinder, Ray, Vector
+from raycert.oracle.witness.meshes import sandwich
+from raycert.oracle.witness.prism import Fineness
 
 SIDES = tuple(2**k for k in range(3, 13))
 UNIT = Cylinder((0.0, 0.0, -1.0), (0.0, 0.0, 1.0), 1.0)

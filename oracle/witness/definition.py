@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from math import isqrt
 
-from cases.model import (
+from raycert.cases.model import (
     Cylinder,
     HalfSpace,
     InfiniteCylinder,
@@ -24,11 +24,11 @@ from cases.model import (
     Sphere,
     leaves,
 )
-from oracle.grid import Grid, IntVector, dot, normal, sub
-from oracle.intervals import Intervals
-from oracle.surd import INFINITY, ZERO, Surd, fraction, sign_1
-from oracle.witness.cells import combine, runs
-from oracle.witness.verdict import Verdict, lengths_differ, show
+from raycert.oracle.exact.grid import Grid, IntVector, dot, normal, sub
+from raycert.oracle.exact.intervals import Intervals
+from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, fraction, sign_1
+from raycert.oracle.witness.cells import combine, runs
+from raycert.oracle.witness.verdict import Verdict, lengths_differ, show
 
 Number = tuple[int, int]
 """a + b sqrt(d), with the d of the endpoint at hand."""

@@ -20,12 +20,32 @@ from fractions import Fraction
 
 from mpmath import iv, mp, nstr
 
-from cases.model import HalfSpace, InfiniteCylinder, Leaf, Ray, Slab, Solid, Sphere, Vector, leaves
-from oracle.intervals import Intervals
-from oracle.surd import Surd
-from oracle.witness.cells import combine, runs, span
-from oracle.witness.ends import Blurred, Box, End, MaybeEnd, Pair, compare, distinct, same, sign
-from oracle.witness.verdict import Verdict, lengths_differ
+from raycert.cases.model import (
+    HalfSpace,
+    InfiniteCylinder,
+    Leaf,
+    Ray,
+    Slab,
+    Solid,
+    Sphere,
+    Vector,
+    leaves,
+)
+from raycert.oracle.exact.intervals import Intervals
+from raycert.oracle.exact.surd import Surd
+from raycert.oracle.witness.cells import combine, runs, span
+from raycert.oracle.witness.ends import (
+    Blurred,
+    Box,
+    End,
+    MaybeEnd,
+    Pair,
+    compare,
+    distinct,
+    same,
+    sign,
+)
+from raycert.oracle.witness.verdict import Verdict, lengths_differ
 
 FIRST, CAP = 128, 1 << 15
 """Bits of precision. Numbers of binary64 differ by up to 2^2100, degree 6 in them by 2^12600."""

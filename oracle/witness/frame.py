@@ -23,8 +23,17 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import isqrt
 
-from cases.model import Cylinder, HalfSpace, InfiniteCylinder, Leaf, Ray, Slab, Sphere, Vector
-from oracle.witness.prism import Part
+from raycert.cases.model import (
+    Cylinder,
+    HalfSpace,
+    InfiniteCylinder,
+    Leaf,
+    Ray,
+    Slab,
+    Sphere,
+    Vector,
+)
+from raycert.oracle.witness.prism import Part
 
 Exact = tuple[Fraction, Fraction, Fraction]
 Form = tuple[Fraction, Fraction]

@@ -35,9 +35,9 @@ from math import isqrt
 
 import numpy as np
 
-from oracle.witness.casting import Unsure, chord
-from oracle.witness.frame import AWAY, ONE, ZERO, Line
-from oracle.witness.prism import Body, Fineness, Floats, Side, ball, prism
+from raycert.oracle.witness.casting import Unsure, chord
+from raycert.oracle.witness.frame import AWAY, ONE, ZERO, Line
+from raycert.oracle.witness.prism import Body, Fineness, Floats, Side, ball, prism
 
 GRID = 110
 """Bits of the grid 2^-GRID on which the doubles of bodies and casts lie: those above 2^-57 do."""

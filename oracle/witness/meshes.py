@@ -24,17 +24,17 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
-from cases.model import Leaf, Ray, Solid, Tree, leaves
-from oracle.intervals import Intervals
-from oracle.surd import INFINITY, ZERO, Surd, fraction
-from oracle.witness.casting import End, Unsure, chord
-from oracle.witness.frame import AWAY, Line, Placed, line, place
-from oracle.witness.prism import Body, Fineness, Side, ball, prism
-from oracle.witness.sandwich import ALL, NONE, Sandwich, combine, judge, show
-from oracle.witness.verdict import Verdict
+from raycert.cases.model import Leaf, Ray, Solid, Tree, leaves
+from raycert.oracle.exact.intervals import Intervals
+from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, fraction
+from raycert.oracle.witness.casting import End, Unsure, chord
+from raycert.oracle.witness.frame import AWAY, Line, Placed, line, place
+from raycert.oracle.witness.prism import Body, Fineness, Side, ball, prism
+from raycert.oracle.witness.sandwich import ALL, NONE, Sandwich, combine, judge, show
+from raycert.oracle.witness.verdict import Verdict
 
 try:
-    from oracle.witness.solids import check
+    from raycert.oracle.witness.solids import check
 except ModuleNotFoundError as absent:
     if absent.name != "manifold3d":
         raise

@@ -12,11 +12,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from cases.model import Difference, Intersection, Tree, Union
-from oracle.intervals import Interval, Intervals
-from oracle.rounding import decimal
-from oracle.surd import INFINITY, ZERO, Surd
-from oracle.witness.verdict import Outcome
+from raycert.cases.model import Difference, Intersection, Tree, Union
+from raycert.oracle.exact.intervals import Interval, Intervals
+from raycert.oracle.exact.rounding import decimal
+from raycert.oracle.exact.surd import INFINITY, ZERO, Surd
+from raycert.oracle.witness.verdict import Outcome
 
 NONE: Intervals = ()
 ALL: Intervals = ((ZERO, INFINITY),)

@@ -21,7 +21,7 @@ from functools import lru_cache, partial
 import numpy as np
 from manifold3d import Error, Manifold, Mesh64, OpType
 
-from cases.model import (
+from raycert.cases.model import (
     Difference,
     HalfSpace,
     InfiniteCylinder,
@@ -35,10 +35,10 @@ from cases.model import (
     Vector,
     leaves,
 )
-from oracle.intervals import Interval, Intervals
-from oracle.surd import INFINITY, ZERO, Surd, fraction
-from oracle.witness.casting import Hits, Unsure, hits, may_lose
-from oracle.witness.frame import (
+from raycert.oracle.exact.intervals import Interval, Intervals
+from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, fraction
+from raycert.oracle.witness.casting import Hits, Unsure, hits, may_lose
+from raycert.oracle.witness.frame import (
     AWAY,
     ONE,
     Exact,
@@ -51,9 +51,9 @@ from oracle.witness.frame import (
     two_to,
     vector,
 )
-from oracle.witness.prism import Body, Fineness, Floats, Side, ball_surface, prism_surface
-from oracle.witness.sandwich import NONE, Sandwich, judge, select
-from oracle.witness.verdict import Outcome
+from raycert.oracle.witness.prism import Body, Fineness, Floats, Side, ball_surface, prism_surface
+from raycert.oracle.witness.sandwich import NONE, Sandwich, judge, select
+from raycert.oracle.witness.verdict import Outcome
 
 WIDE = 2.0**-16
 CUT = 16

@@ -3,7 +3,7 @@
 A statement is an equation written as text and executed: both sides are evaluated in components,
 and their difference is shown to be the zero polynomial modulo h.h = 1, where h is the unit vector
 along the axis. `a @ b` is the scalar product, `a ^ b` the vector product. The oracle's forms are
-those of its own code (`oracle.leaf`), run on symbols.
+those of its own code (`raycert.oracle.exact.leaf`), run on symbols.
 
 SymPy is loaded only by this module and those whose names begin as its does.
 """
@@ -16,10 +16,10 @@ from typing import Any
 
 from sympy import Expr, Poly, Symbol, diff, expand, fraction, solve, symbols, together
 
-from cases.model import Cylinder, HalfSpace, InfiniteCylinder, Sphere
-from oracle.leaf import ball, caps, half_space, wall
-from oracle.witness.symbols_conditions import RADIUS, S_AXIS, T, Vec, globe, plane, rod
-from oracle.witness.symbols_tables import table_proofs
+from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Sphere
+from raycert.oracle.exact.leaf import ball, caps, half_space, wall
+from raycert.oracle.witness.symbols_conditions import RADIUS, S_AXIS, T, Vec, globe, plane, rod
+from raycert.oracle.witness.symbols_tables import table_proofs
 
 LEGEND = (
     "x, u, v, p, q, r: a point, the ray u + t v, the axis and the radius",

@@ -16,7 +16,7 @@ from typing import Any
 
 from sympy import QQ, ZZ, Poly, Rational, intervals, lambdify
 
-from cases.model import (
+from raycert.cases.model import (
     Cylinder,
     HalfSpace,
     InfiniteCylinder,
@@ -28,11 +28,11 @@ from cases.model import (
     Vector,
     leaves,
 )
-from oracle.intervals import Intervals
-from oracle.surd import Surd
-from oracle.witness.cells import combine, runs
-from oracle.witness.symbols_conditions import RADIUS, T, Vec, globe, plane, rod
-from oracle.witness.verdict import Verdict, lengths_differ
+from raycert.oracle.exact.intervals import Intervals
+from raycert.oracle.exact.surd import Surd
+from raycert.oracle.witness.cells import combine, runs
+from raycert.oracle.witness.symbols_conditions import RADIUS, T, Vec, globe, plane, rod
+from raycert.oracle.witness.verdict import Verdict, lengths_differ
 
 Exact = tuple[Any, Any, Any]
 """Three of SymPy's rationals."""

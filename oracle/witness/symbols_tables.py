@@ -13,7 +13,7 @@ from sympy import And, Implies, Not, Or, Symbol
 from sympy.logic.boolalg import Boolean
 from sympy.logic.inference import satisfiable
 
-from cases.table import HALF_SPACE, HOLDS, PROBLEM_1, PROBLEM_2, PROBLEM_3, Row
+from raycert.cases.table import HALF_SPACE, HOLDS, PROBLEM_1, PROBLEM_2, PROBLEM_3, Row
 
 Rows = tuple[Row, ...]
 

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Literal
 
-from cases.model import Ray, Solid
-from oracle.intervals import Intervals
-from oracle.rounding import decimal
-from oracle.surd import Surd
+from raycert.cases.model import Ray, Solid
+from raycert.oracle.exact.intervals import Intervals
+from raycert.oracle.exact.rounding import decimal
+from raycert.oracle.exact.surd import Surd
 
 Outcome = Literal["agreed", "undecided", "disagreed"]
 OUTCOMES: tuple[Outcome, ...] = ("agreed", "undecided", "disagreed")
@@ -31,10 +31,10 @@ class Verdict:
 Witness = Callable[[Solid, Ray, Intervals], Verdict]
 
 WITNESSES: dict[str, str] = {
-    "definition": "oracle.witness.definition:witness",
-    "enclosure": "oracle.witness.enclosure:witness",
-    "symbols": "oracle.witness.symbols_solve:witness",
-    "meshes": "oracle.witness.meshes:witness",
+    "definition": "raycert.oracle.witness.definition:witness",
+    "enclosure": "raycert.oracle.witness.enclosure:witness",
+    "symbols": "raycert.oracle.witness.symbols_solve:witness",
+    "meshes": "raycert.oracle.witness.meshes:witness",
 }
 """Each witness as `module:function`, in the order they run."""
 

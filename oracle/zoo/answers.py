@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from itertools import count
 from math import inf, nextafter
 
-from cases.model import Ray, Solid
-from oracle.zoo.fault import Fault, Intersect, fault
-from oracle.zoo.lists import NAN, Pairs
-from oracle.zoo.tracer import BASE
+from raycert.cases.model import Ray, Solid
+from raycert.oracle.zoo.fault import Fault, Intersect, fault
+from raycert.oracle.zoo.lists import NAN, Pairs
+from raycert.oracle.zoo.tracer import BASE
 
 Tell = Callable[[Solid, Ray, Pairs], Pairs]
 

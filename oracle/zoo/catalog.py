@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from oracle.zoo import answers, conventions, limits, planes, starts, trees, walls
-from oracle.zoo.fault import Fault, Process
-from oracle.zoo.sound import SOUND
+from raycert.oracle.zoo import answers, conventions, limits, planes, starts, trees, walls
+from raycert.oracle.zoo.fault import Fault, Process
+from raycert.oracle.zoo.sound import SOUND
 
 FAULTS: tuple[Fault, ...] = (
     *walls.FAULTS,

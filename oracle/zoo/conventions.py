@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from cases.model import Vector
-from oracle.zoo.fault import Fault, fault
-from oracle.zoo.lists import Pairs
-from oracle.zoo.numbers import cross, norm
-from oracle.zoo.tracer import Sight, Tracer, ahead, can, chord, plane
+from raycert.cases.model import Vector
+from raycert.oracle.zoo.fault import Fault, fault
+from raycert.oracle.zoo.lists import Pairs
+from raycert.oracle.zoo.numbers import cross, norm
+from raycert.oracle.zoo.tracer import Sight, Tracer, ahead, can, chord, plane
 
 
 def _secants(y: Vector, v: Vector, r: float) -> Pairs:

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 
-from cases.corpus import Corpus
-from cases.model import type_of
-from oracle.zoo.catalog import FAULTS
-from oracle.zoo.fault import Fault
-from oracle.zoo.matrix import LEVELS, Bench, Refusal, line
+from raycert.cases.corpus import Corpus
+from raycert.cases.model import type_of
+from raycert.oracle.zoo.catalog import FAULTS
+from raycert.oracle.zoo.fault import Fault
+from raycert.oracle.zoo.matrix import LEVELS, Bench, Refusal, line
 
 MOST = 200
 """More rows than these are no smoke test; tests/test_zoo_cover.py counts them."""

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-from cases.model import Ray, Solid
-from oracle.judge import Level
-from oracle.zoo.lists import Pairs
-from oracle.zoo.tracer import BASE
+from raycert.cases.model import Ray, Solid
+from raycert.oracle.judge.levels import Level
+from raycert.oracle.zoo.lists import Pairs
+from raycert.oracle.zoo.tracer import BASE
 
 Intersect = Callable[[Solid, Ray], Pairs]
 Kind = Literal[

@@ -9,13 +9,13 @@ from math import hypot, inf, ldexp
 from typing import Any
 from zlib import crc32
 
-from cases.formats import BINARY32
-from cases.model import Leaf, Ray, Solid, Vector
-from oracle.zoo.fault import Fault, fault
-from oracle.zoo.lists import Pairs
-from oracle.zoo.numbers import single
-from oracle.zoo.plain import each_leaf, unscaled
-from oracle.zoo.tracer import ahead
+from raycert.cases.formats import BINARY32
+from raycert.cases.model import Leaf, Ray, Solid, Vector
+from raycert.oracle.zoo.fault import Fault, fault
+from raycert.oracle.zoo.lists import Pairs
+from raycert.oracle.zoo.numbers import single
+from raycert.oracle.zoo.plain import each_leaf, unscaled
+from raycert.oracle.zoo.tracer import ahead
 
 Tell = Callable[[Solid, Ray, Pairs], Pairs]
 LEAST = sys.float_info.min

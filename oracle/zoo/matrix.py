@@ -12,13 +12,13 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from cases.accept import Numbers, Pairs
-from cases.corpus import Corpus
-from cases.formats import BINARY64, Format
-from cases.row import GoldenRow
-from oracle.judge import Judge, Level
-from oracle.zoo.fault import Fault, Intersect, Kind
-from oracle.zoo.tracer import BASE
+from raycert.cases.accept import Numbers, Pairs
+from raycert.cases.corpus import Corpus
+from raycert.cases.formats import BINARY64, Format
+from raycert.cases.row import GoldenRow
+from raycert.oracle.judge.levels import Judge, Level
+from raycert.oracle.zoo.fault import Fault, Intersect, Kind
+from raycert.oracle.zoo.tracer import BASE
 
 LEVELS = ("sound", "stable", "closed", "faithful")
 """What may refuse a row, in this order; `faithful` by the number of pairs only."""

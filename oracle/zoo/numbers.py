@@ -10,9 +10,9 @@ from fractions import Fraction
 from math import frexp, inf, isqrt, ldexp, sqrt
 from typing import Any, cast
 
-from cases.formats import BINARY32
-from cases.model import Vector
-from oracle.textbook import Single
+from raycert.cases.formats import BINARY32
+from raycert.cases.model import Vector
+from raycert.oracle.zoo.textbook import Single
 
 BITS = 240
 """The bits of a root that a fraction gets."""

@@ -9,10 +9,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from cases.model import Ray, Solid, Tree, Vector
-from oracle.zoo.lists import LINE, Pairs
-from oracle.zoo.numbers import dot, minus, norm, root, times
-from oracle.zoo.tracer import Sight, Tracer
+from raycert.cases.model import Ray, Solid, Tree, Vector
+from raycert.oracle.zoo.lists import LINE, Pairs
+from raycert.oracle.zoo.numbers import dot, minus, norm, root, times
+from raycert.oracle.zoo.tracer import Sight, Tracer
 
 Chord = Callable[[Vector, Vector, float], Pairs]
 

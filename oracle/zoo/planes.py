@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import inf
 
-from oracle.zoo.fault import Fault, fault
-from oracle.zoo.lists import LINE, NAN, Pairs, common, share
-from oracle.zoo.numbers import dot, minus, norm, times
-from oracle.zoo.plain import PLAIN, unscaled
-from oracle.zoo.tracer import Sight, Tracer, can, plane
+from raycert.oracle.zoo.fault import Fault, fault
+from raycert.oracle.zoo.lists import LINE, NAN, Pairs, common, share
+from raycert.oracle.zoo.numbers import dot, minus, norm, times
+from raycert.oracle.zoo.plain import PLAIN, unscaled
+from raycert.oracle.zoo.tracer import Sight, Tracer, can, plane
 
 Caps = tuple[Pairs, Pairs]
 

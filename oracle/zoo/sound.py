@@ -6,12 +6,12 @@ from dataclasses import replace
 from math import inf
 from typing import Any
 
-from cases.model import Ray, Solid, Vector
-from oracle.zoo.fault import Sound
-from oracle.zoo.lists import Pairs, merged
-from oracle.zoo.numbers import cross, dot, fraction, minus, norm, single, times
-from oracle.zoo.plain import PLAIN, discriminant, unit, unscaled
-from oracle.zoo.tracer import BASE, Sight, Tracer, ahead, chord, plane
+from raycert.cases.model import Ray, Solid, Vector
+from raycert.oracle.zoo.fault import Sound
+from raycert.oracle.zoo.lists import Pairs, merged
+from raycert.oracle.zoo.numbers import cross, dot, fraction, minus, norm, single, times
+from raycert.oracle.zoo.plain import PLAIN, discriminant, unit, unscaled
+from raycert.oracle.zoo.tracer import BASE, Sight, Tracer, ahead, chord, plane
 
 
 def _framed(self: Tracer, s: Sight) -> Pairs:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from math import inf
 
-from cases.model import Ray, Solid
-from oracle.zoo.fault import Fault, fault
-from oracle.zoo.lists import NAN, Pairs
-from oracle.zoo.tracer import ahead
+from raycert.cases.model import Ray, Solid
+from raycert.oracle.zoo.fault import Fault, fault
+from raycert.oracle.zoo.lists import NAN, Pairs
+from raycert.oracle.zoo.tracer import ahead
 
 
 def kept(wanted: Callable[[float, float], bool]) -> Callable[[Pairs], Pairs]:

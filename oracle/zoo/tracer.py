@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from math import inf
 from typing import NamedTuple
 
-from cases.model import (
+from raycert.cases.model import (
     Cylinder,
     Difference,
     HalfSpace,
@@ -25,8 +25,8 @@ from cases.model import (
     Union,
     Vector,
 )
-from oracle.zoo.lists import LINE, Pairs, common, share, subtract, unite
-from oracle.zoo.numbers import cross, dot, exponent, minus, norm, root, shift, shifted
+from raycert.oracle.zoo.lists import LINE, Pairs, common, share, subtract, unite
+from raycert.oracle.zoo.numbers import cross, dot, exponent, minus, norm, root, shift, shifted
 
 
 class Sight(NamedTuple):

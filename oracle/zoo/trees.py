@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from cases.model import Difference, Ray, Solid, Tree
-from oracle.zoo.fault import Fault, fault
-from oracle.zoo.lists import Pairs, common, cut, merged, share, subtract, unite
-from oracle.zoo.tracer import Combine
+from raycert.cases.model import Difference, Ray, Solid, Tree
+from raycert.oracle.zoo.fault import Fault, fault
+from raycert.oracle.zoo.lists import Pairs, common, cut, merged, share, subtract, unite
+from raycert.oracle.zoo.tracer import Combine
 
 
 def _within(gap: float) -> Combine:

@@ -7,12 +7,12 @@ from dataclasses import replace
 from math import hypot, nan, sqrt
 from typing import Any
 
-from cases.formats import BINARY32
-from cases.model import Cylinder, InfiniteCylinder, Leaf, Slab, Vector
-from oracle.zoo.fault import Fault, fault
-from oracle.zoo.lists import LINE, NAN, Pairs
-from oracle.zoo.numbers import cross, dot, minus, norm, times
-from oracle.zoo.plain import (
+from raycert.cases.formats import BINARY32
+from raycert.cases.model import Cylinder, InfiniteCylinder, Leaf, Slab, Vector
+from raycert.oracle.zoo.fault import Fault, fault
+from raycert.oracle.zoo.lists import LINE, NAN, Pairs
+from raycert.oracle.zoo.numbers import cross, dot, minus, norm, times
+from raycert.oracle.zoo.plain import (
     PLAIN,
     Chord,
     coefficients,
@@ -22,7 +22,7 @@ from oracle.zoo.plain import (
     roots,
     unscaled,
 )
-from oracle.zoo.tracer import Sight, Tracer, ball, chord, crossed
+from raycert.oracle.zoo.tracer import Sight, Tracer, ball, chord, crossed
 
 
 def parallel(answer: Callable[[Vector, float], Pairs]) -> Chord:

@@ -1,0 +1,1 @@
+"""From a client and a corpus to a certificate: run, grade, verdict, diagnosis."""

@@ -1,0 +1,149 @@
+"""One row, one outcome: which levels it passes, and how far the answer is from the exact one.
+
+Levels are decided by the row's own lists, as any reader could; the measured errors come from the
+exact judge. A failure to answer fails every level.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import inf
+
+from raycert.cases.accept import Numbers
+from raycert.cases.protocol import Hello, Reply, convention
+from raycert.cases.row import GoldenRow
+from raycert.oracle.client.process import Failure
+from raycert.oracle.judge.answer import Answer, Listed, answer
+from raycert.oracle.judge.decisive import decisive
+from raycert.oracle.judge.levels import LEVELS, MEASURES, Enclosures, Judge, Level
+
+
+@dataclass(frozen=True)
+class Grade:
+    """What came of one row. `faults` names, for each level it fails, the reason.
+
+    `outside` does so for the levels that the row does not decide; it is told, and not counted.
+    `said` is None where there was no answer. The errors are measured when they are asked for:
+    `strict` and `squared` are the backward errors k, `ulps` the forward error; infinite where the
+    answer is none, or has another number of pairs.
+    """
+
+    row: GoldenRow
+    said: Answer | None
+    faults: Mapping[str, str]
+    judge: Judge
+    decides: tuple[str, ...] = ()
+    outside: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def answer(self) -> Numbers | None:
+        """Return the interval list that was answered; None if there is none."""
+        return self.said.pairs if isinstance(self.said, Listed) else None
+
+    @cached_property
+    def strict(self) -> float:
+        """Return the strict backward error k."""
+        return inf if self.said is None else self.said.backward_error(self.judge, "strict")
+
+    @cached_property
+    def squared(self) -> float:
+        """Return the squared backward error k."""
+        return inf if self.said is None else self.said.backward_error(self.judge, "squared")
+
+    @cached_property
+    def ulps(self) -> float:
+        """Return the forward error in ulps."""
+        return inf if self.said is None else self.said.forward_error(self.judge)
+
+    def fault(self, level: Level) -> str | None:
+        """Return why the row fails a level, or None. A row not decisive can only be malformed."""
+        return self.faults.get(level)
+
+    def counts(self, level: Level) -> bool:
+        """Tell whether the row decides a level, or fails whatever it decides."""
+        return level in self.decides or level in self.faults
+
+    @property
+    def keeps_touch(self) -> bool | None:
+        """Tell whether a touch was kept as a pair; None where the row has none to grade."""
+        touched = any(span.touch for span in self.row.intervals)
+        if self.row.tier != "lattice" or not touched or self.said is None:
+            return None
+        return self.said.keeps_touch(self.row.expected)
+
+
+def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
+    """Return the grade of what an implementation answered to a row."""
+    judge = Judge(row.solid, row.ray, hello.format, row.tier, hello.tolerance)
+    failure = _failure(outcome)
+    if failure is not None:
+        return Grade(row, None, dict.fromkeys(LEVELS, failure), judge, row.decisive)
+    assert isinstance(outcome, Reply)
+    said = answer(outcome, hello)
+    malformed = said.malformed(judge)
+    if malformed is not None:
+        return Grade(row, said, dict.fromkeys(LEVELS, malformed), judge, row.decisive)
+    decides = deciding(row, judge)
+    faults, outside = _faults(row, said, judge, hello, decides)
+    return Grade(row, said, faults, judge, decides, outside)
+
+
+def deciding(row: GoldenRow, judge: Judge) -> tuple[str, ...]:
+    """Return the levels that a row decides for a client, whose tolerance may take some away.
+
+    A tolerance beyond c, 1/8 of the smallest radius or thickness, would excuse a gross answer.
+    """
+    if not judge.tolerance:
+        return row.decisive
+    finer = tuple(level for level in LEVELS if level not in MEASURES)
+    return decisive(judge) if judge.scene.tolerance_is_fine() else finer
+
+
+def _failure(outcome: Reply | Failure) -> str | None:
+    if isinstance(outcome, Failure):
+        return f"{outcome.kind}: {outcome.detail}"
+    if outcome.unsupported is not None:
+        return f"unsupported: {outcome.unsupported}"
+    return None if outcome.error is None else f"error: {outcome.error}"
+
+
+def _faults(
+    row: GoldenRow, said: Answer, judge: Judge, hello: Hello, decides: Collection[str]
+) -> tuple[dict[str, str], dict[str, str]]:
+    """Return the reasons why the answer fails levels: those the row decides, and the others."""
+    faults: dict[str, str] = {}
+    outside: dict[str, str] = {}
+    for level in LEVELS:
+        fault = _level_fault(level, row, said, judge, hello)
+        if level not in decides:
+            outside |= {level: fault} if fault else {}
+        elif fault or faults:
+            faults[level] = fault or next(reversed(faults.values()))
+    return faults, outside
+
+
+def _level_fault(
+    level: Level, row: GoldenRow, said: Answer, judge: Judge, hello: Hello
+) -> str | None:
+    match level:
+        case "sound" | "stable":
+            return said.fault(judge.accept(level) if hello.tolerance else row.accept[level])
+        case "faithful":
+            return said.is_faithful(*kept(row, judge, hello))
+    return said.is_expected(kept(row, judge, hello)[0])
+
+
+def kept(row: GoldenRow, judge: Judge, hello: Hello) -> tuple[Numbers, Enclosures]:
+    """Return the expected list, and the numbers around its ends.
+
+    The touches that the declared convention drops are left out.
+    """
+    if len(row.expected) != len(row.intervals):
+        return row.expected, judge.enclosures
+    keeps = convention(hello.convention)
+    spans = zip(row.expected, row.intervals, strict=True)
+    left = [(pair, span) for pair, span in spans if span.touch is None or keeps[span.touch]]
+    enclosures = (tuple((end.down, end.up) for end in (s.enter, s.leave)) for _, s in left)
+    return tuple(pair for pair, _ in left), tuple(enclosures)  # type: ignore[arg-type]

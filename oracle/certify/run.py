@@ -1,0 +1,282 @@
+"""A certification from plan to result: greet, select, ask the easy cases, ask, judge.
+
+The command, the pytest plugin and others share it. Nothing is printed and nothing written: what a
+person may want to see while it runs goes through a `Watch`.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass, field, replace
+from datetime import UTC, datetime
+from pathlib import Path
+
+from raycert.cases.corpus import GOLDEN, Corpus, read_corpus
+from raycert.cases.protocol import Hello
+from raycert.cases.row import GoldenRow
+from raycert.oracle.certify.certificate import Asked, Json, Left, Ran, certificate
+from raycert.oracle.certify.contradictions import contradictions
+from raycert.oracle.certify.diagnosis import diagnose
+from raycert.oracle.certify.environment import environment
+from raycert.oracle.certify.expectations import Expectations
+from raycert.oracle.certify.expected import Matched, failed_level, match, record
+from raycert.oracle.certify.grading import Grade, grade
+from raycert.oracle.certify.selection import Selection, able, select
+from raycert.oracle.certify.verdict import Verdict, severity, verdict
+from raycert.oracle.client.dialogue import Target
+from raycert.oracle.client.easy import easy
+from raycert.oracle.client.harness import Failure, Interrupted, Limits, Outcome, Question, greet
+from raycert.oracle.client.harness import run as ask
+from raycert.oracle.client.smoke import diagnose as diagnose_adapter
+from raycert.oracle.client.smoke import limits as soon
+from raycert.oracle.corpus.fresh import Fresh, fresh_rows
+from raycert.oracle.judge.levels import Level
+
+BLOCK = 256
+"""Questions that are asked before the answers are judged, where the first failure ends the run."""
+
+Advance = Callable[..., None]
+Counting = Callable[[str, int], AbstractContextManager[Advance]]
+
+
+class Unsuitable(Exception):
+    """Nothing was tested: no row for what is declared, or not one easy case answered."""
+
+
+class NotInCorpus(ValueError):
+    """A selection names what there is not; the text lists it."""
+
+
+@contextmanager
+def _silent(_verb: str, _total: int) -> Iterator[Advance]:
+    yield lambda n=1: None
+
+
+@dataclass(frozen=True, slots=True)
+class Watch:
+    """Who looks on. `counting(verb, total)` gives a context of `advance(n=1)`.
+
+    `note` is told at once what is wrong with the adapter; the result has it too.
+    """
+
+    counting: Counting = _silent
+    note: Callable[[str], None] = lambda _: None
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What to certify, on which rows, for what.
+
+    `fail_fast` ends the run soon after the first row that fails the level; the result is then
+    marked as interrupted.
+    """
+
+    target: Sequence[str] | Target
+    level: Level = "sound"
+    convention: str = "closed"
+    selection: Selection = field(default_factory=Selection)
+    limits: Limits = field(default_factory=Limits)
+    golden: Path = GOLDEN
+    fresh: Fresh | None = None
+    fail_fast: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Prepared:
+    """A plan whose target has said hello: the rows to ask, and those left.
+
+    `known` are all rows that could be asked of it, outside the selection too.
+    """
+
+    plan: Plan
+    hello: Hello
+    corpus: Corpus
+    rows: tuple[GoldenRow, ...]
+    left: Left
+    known: tuple[GoldenRow, ...]
+
+    def only(self, families: Sequence[str]) -> Prepared:
+        """Return the part of this that asks these families only."""
+        rows = tuple(row for row in self.rows if row.family in families)
+        more = len(self.rows) - len(rows)
+        plan = replace(self.plan, selection=replace(self.plan.selection, families=tuple(families)))
+        left = Left(self.left.solids, self.left.rows + more)
+        return replace(self, plan=plan, rows=rows, left=left)
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """What came of a run."""
+
+    prepared: Prepared
+    grades: tuple[Grade, ...]
+    ran: Ran
+    verdict: Verdict
+
+    def matched(self, expectations: Expectations) -> Matched:
+        """Return how the run compares with what was expected of it."""
+        plan = self.prepared.plan
+        return match(expectations, self.grades, plan.level, plan.convention, self.prepared.known)
+
+    def recorded(self, old: Expectations | None = None) -> Expectations:
+        """Return the expectations that accept this run; the old ones that hold are kept."""
+        plan, version = self.prepared.plan, self.prepared.corpus.version
+        known = self.prepared.known
+        return record(self.grades, plan.level, plan.convention, version, old, known)
+
+    def form(self, command: Sequence[str], expectations: Json | None = None) -> Json:
+        """Return the certificate.
+
+        `command` are the words that name the target to a person, `expectations` what
+        `Matched.as_json` says.
+        """
+        plan, prepared = self.prepared.plan, self.prepared
+        shard, fresh = plan.selection.shard, plan.fresh
+        narrowed, drawn = plan.selection.options(), fresh.options() if fresh else ()
+        other = () if plan.golden == GOLDEN else ("--golden", str(plan.golden))
+        asked = Asked(plan.level, plan.convention, tuple(command), narrowed, drawn, other)
+        return certificate(
+            asked,
+            prepared.hello,
+            prepared.corpus,
+            self.grades,
+            prepared.left,
+            self.ran,
+            self.verdict,
+            environment(),
+            expectations,
+            shard=None if shard is None else str(shard),
+            fresh=None if fresh is None else {"seed": fresh.seed, "rows": fresh.count},
+        )
+
+
+def prepare(plan: Plan) -> Prepared:
+    """Greet the target and choose the rows.
+
+    Raises `Unusable` (no hello), `BadCorpus`, `NotInCorpus` and `Unsuitable` (no rows).
+    """
+    hello = greet(plan.target, plan.limits)
+    corpus = read_corpus(hello.precision, plan.golden)
+    if not corpus.rows:
+        raise Unsuitable(f"there are no rows in {hello.precision} in {plan.golden}")
+    fresh = _fresh(plan, hello)
+    if absent := plan.selection.missing(corpus, fresh):
+        raise NotInCorpus(f"not in the corpus: {', '.join(absent)}")
+    rows, left = select(corpus, hello, plan.selection, fresh)
+    if not rows:
+        raise Unsuitable(f"nothing to test: the target declares {', '.join(hello.solids)}")
+    known = tuple(able((*corpus.rows, *fresh), hello))
+    return Prepared(plan, hello, corpus, tuple(rows), left, known)
+
+
+def _fresh(plan: Plan, hello: Hello) -> tuple[GoldenRow, ...]:
+    if plan.fresh is None:
+        return ()
+    return fresh_rows(plan.fresh.seed, plan.fresh.count, hello.format, hello.solids)
+
+
+def certify(plan: Plan, watch: Watch | None = None) -> Result:
+    """Return what came of a plan. Raises what `prepare` and `conduct` raise."""
+    return conduct(prepare(plan), watch)
+
+
+def conduct(prepared: Prepared, watch: Watch | None = None) -> Result:
+    """Ask the easy cases, then every row, and judge the answers.
+
+    On KeyboardInterrupt what is known is kept, and the result marked. Raises `Unusable`, and
+    `Unsuitable` where not one easy case is answered.
+    """
+    watch, plan = watch or Watch(), prepared.plan
+    notes = smoke(plan, prepared.hello, watch)
+    began, clock = datetime.now(UTC).isoformat(timespec="seconds"), time.monotonic()
+    answers = _Answers(prepared, watch, notes)
+    size = BLOCK if plan.fail_fast else len(prepared.rows)
+    for start in range(0, len(prepared.rows), size):
+        answers.add(prepared.rows[start : start + size])
+        if answers.stopped:
+            break
+    grades = tuple(answers.grades)
+    said = dict.fromkeys((*answers.notes, *contradictions(prepared.hello, grades)))
+    ran = Ran(
+        restarts=answers.restarts,
+        notes=tuple(said),
+        seconds=round(time.monotonic() - clock, 3),
+        interrupted=answers.stopped,
+        began=began,
+        diagnosis=tuple(diagnose(grades)) if any(g.faults for g in grades) else (),
+    )
+    return Result(prepared, grades, ran, verdict(grades, plan.level, plan.convention))
+
+
+def smoke(plan: Plan, hello: Hello, watch: Watch) -> list[str]:
+    """Ask the easy cases; return what is wrong with the adapter.
+
+    Raises `Unsuitable` if it answers none of them.
+    """
+    cases = easy(hello)
+    questions = [case.question for case in cases]
+    outcomes = ask(plan.target, questions, soon(plan.limits)).outcomes
+    said = diagnose_adapter(cases, outcomes)
+    for line in said:
+        watch.note(line)
+    if cases and all(isinstance(outcome, Failure) for outcome in outcomes.values()):
+        raise Unsuitable("none of the easy cases was answered, so nothing was tested")
+    return said
+
+
+class _Answers:
+    """What is known of a run so far."""
+
+    def __init__(self, prepared: Prepared, watch: Watch, notes: Sequence[str]) -> None:
+        self.grades: list[Grade] = []
+        self.notes = list(notes)
+        self.restarts = 0
+        self.stopped = False
+        self._prepared, self._watch = prepared, watch
+
+    def add(self, rows: Sequence[GoldenRow]) -> None:
+        """Ask some rows and judge the answers."""
+        self._judge(rows, self._ask(rows))
+        if self._prepared.plan.fail_fast and not self.stopped:
+            self._stop_at_a_failure()
+
+    def _ask(self, rows: Sequence[GoldenRow]) -> dict[str, Outcome]:
+        plan, done = self._prepared.plan, 0
+        questions = [Question(row.id, row.solid, row.ray) for row in rows]
+        with self._watch.counting("asking", len(rows)) as advance:
+
+            def on_progress(known: int) -> None:
+                nonlocal done
+                advance(known - done)
+                done = known
+
+            try:
+                ran = ask(plan.target, questions, plan.limits, on_progress)
+            except Interrupted as interrupted:
+                ran, self.stopped = interrupted.run, True
+        self.restarts += ran.restarts
+        self.notes += ran.notes
+        return dict(ran.outcomes)
+
+    def _judge(self, rows: Sequence[GoldenRow], outcomes: dict[str, Outcome]) -> None:
+        answered = [row for row in rows if row.id in outcomes]
+        with self._watch.counting("judging", len(answered)) as advance:
+            try:
+                for row in answered:
+                    graded = grade(row, outcomes[row.id], self._prepared.hello)
+                    severity(graded)  # measures the errors now, where the progress shows
+                    self.grades.append(graded)
+                    advance()
+            except KeyboardInterrupt:
+                self.stopped = True
+
+    def _stop_at_a_failure(self) -> None:
+        level, rest = self._prepared.plan.level, len(self._prepared.rows) - len(self.grades)
+        failing = (g.row.id for g in self.grades if failed_level(g, level))
+        if first := next(failing, None):
+            self.stopped = rest > 0
+            self.notes.append(
+                f"ended early, at {first}, the first row that fails: {rest} not asked"
+            )

@@ -1,0 +1,137 @@
+"""Which rows are sent: what the client declared, narrowed by what the person asks.
+
+A shard is chosen by a hash of the row's id, not by its place: a row that comes or goes moves no
+other, and every row is in exactly one shard.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from hashlib import sha256
+
+from raycert.cases.corpus import Corpus
+from raycert.cases.model import type_of, types
+from raycert.cases.protocol import Hello
+from raycert.cases.row import GoldenRow
+from raycert.oracle.certify.certificate import Left
+from raycert.oracle.zoo.smoke import smoke
+
+MOST_SHARDS = 1000
+
+
+class BadShard(ValueError):
+    """A text that names no shard; the text says what one looks like."""
+
+
+@dataclass(frozen=True, slots=True)
+class Shard:
+    """The `number`-th of `of` parts, counted from 1."""
+
+    number: int
+    of: int
+
+    @classmethod
+    def parse(cls, text: str) -> Shard:
+        """Return the shard that `2/5` names. Raises `BadShard`."""
+        found = re.fullmatch(r"([0-9]{1,4})/([0-9]{1,4})", text, re.ASCII)
+        number, of = (int(group) for group in found.groups()) if found else (0, 0)
+        if not 1 <= number <= of <= MOST_SHARDS:
+            raise BadShard(
+                f"is not N/OF with 1 <= N <= OF <= {MOST_SHARDS}, as 2/5 is: {text!r:.40}"
+            )
+        return cls(number, of)
+
+    def __str__(self) -> str:
+        return f"{self.number}/{self.of}"
+
+    def takes(self, id: str) -> bool:
+        """Tell whether the row with this id is in the shard."""
+        digest = sha256(id.encode()).digest()
+        return int.from_bytes(digest[:8], "big") % self.of == self.number - 1
+
+
+NAMES = {"solids": "--solid", "tiers": "--tier", "families": "--family", "ids": "--id"}
+"""The fields of a selection that list values, each with its option."""
+
+
+@dataclass(frozen=True, slots=True)
+class Selection:
+    """The options that narrow a run; an empty one narrows nothing."""
+
+    solids: tuple[str, ...] = ()
+    tiers: tuple[str, ...] = ()
+    families: tuple[str, ...] = ()
+    ids: tuple[str, ...] = ()
+    shard: Shard | None = None
+    smoke: bool = False
+    """Only the smoke rows, which `select` knows."""
+
+    def takes(self, row: GoldenRow) -> bool:
+        """Tell whether a row is selected."""
+        asked: tuple[tuple[tuple[str, ...], str], ...] = (
+            (self.solids, type_of(row.solid)),
+            (self.tiers, row.tier),
+            (self.families, row.family),
+            (self.ids, row.id),
+        )
+        named = all(not wanted or value in wanted for wanted, value in asked)
+        return named and (self.shard is None or self.shard.takes(row.id))
+
+    def options(self) -> tuple[str, ...]:
+        """Return the command-line options that select the same."""
+        named = tuple(
+            word
+            for field, option in NAMES.items()
+            for value in getattr(self, field)
+            for word in (option, value)
+        )
+        shard = () if self.shard is None else ("--shard", str(self.shard))
+        return (*named, *shard, *(("--smoke",) if self.smoke else ()))
+
+    def missing(self, corpus: Corpus, fresh: Sequence[GoldenRow] = ()) -> list[str]:
+        """Return what is asked for and neither in the corpus nor among the fresh rows."""
+        rows = (*corpus.rows, *fresh)
+        there: dict[str, set[str]] = {
+            "solids": {type_of(row.solid) for row in rows},
+            "tiers": {row.tier for row in rows},
+            "families": {row.family for row in rows},
+            "ids": {row.id for row in rows},
+        }
+        return [
+            value
+            for name, known in there.items()
+            for value in getattr(self, name)
+            if value not in known
+        ]
+
+
+def able(rows: Iterable[GoldenRow], hello: Hello) -> list[GoldenRow]:
+    """Return the rows of solids that are declared, every part of them."""
+    declared = set(hello.solids)
+    return [row for row in rows if types(row.solid) <= declared]
+
+
+def select(
+    corpus: Corpus, hello: Hello, selection: Selection, fresh: Sequence[GoldenRow] = ()
+) -> tuple[list[GoldenRow], Left]:
+    """Return the rows to send, and what is left out because it was not declared or selected.
+
+    `fresh` rows are asked beside those of the corpus, and narrowed like them.
+    """
+    every = (*corpus.rows, *fresh)
+    golden = _smoke(corpus) if selection.smoke else corpus.rows
+    rows = [row for row in able((*golden, *fresh), hello) if selection.takes(row)]
+    left = sorted({type_of(row.solid) for row in every} - _roots(rows))
+    return rows, Left(tuple(left), len(every) - len(rows))
+
+
+def _smoke(corpus: Corpus) -> list[GoldenRow]:
+    """Return the smoke rows in their order; those that another corpus lacks are left out."""
+    rows = {row.id: row for row in corpus.rows}
+    return [rows[id] for id in smoke(corpus.precision) if id in rows]
+
+
+def _roots(rows: Sequence[GoldenRow]) -> set[str]:
+    return {type_of(row.solid) for row in rows}

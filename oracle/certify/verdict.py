@@ -1,0 +1,206 @@
+"""From the grades of a run to its certificate: levels per solid type, conventions, worst cases.
+
+A level is granted to a solid type if every row that decides it passes; never as a percentage. Rows
+of the `range` tier are part of no level: they give the window of scales in which a level holds.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from math import frexp
+
+from raycert.cases.model import leaves, type_of
+from raycert.cases.protocol import TOUCHES, convention
+from raycert.cases.row import GoldenRow
+from raycert.oracle.certify.grading import Grade
+from raycert.oracle.exact.grid import lengths
+from raycert.oracle.judge.levels import LEVELS, Level
+
+
+@dataclass(frozen=True, slots=True)
+class Tally:
+    """How the rows of one solid type, or one family, fared on one level."""
+
+    passed: int
+    failed: int
+    not_decisive: int
+
+    @property
+    def granted(self) -> bool:
+        """Tell whether the level is granted: something was tested, and nothing failed."""
+        return self.passed > 0 and not self.failed
+
+    @classmethod
+    def of(cls, grades: Iterable[Grade], level: Level) -> Tally:
+        """Count the rows, those of the range tier left out."""
+        rows = [g for g in grades if g.row.tier != "range"]
+        failed = sum(g.fault(level) is not None for g in rows)
+        counted = sum(g.counts(level) for g in rows)
+        return cls(counted - failed, failed, len(rows) - counted)
+
+
+@dataclass(frozen=True, slots=True)
+class Touches:
+    """For each kind of touch: how many of the lattice's were kept as pairs, of how many."""
+
+    kept: dict[str, tuple[int, int]]
+
+    @classmethod
+    def of(cls, grades: Sequence[Grade]) -> Touches:
+        """Count the touches that were answered."""
+        kept = {}
+        for kind in TOUCHES:
+            answers = [g.keeps_touch for g in grades if kind in _kinds(g.row)]
+            graded = [answer for answer in answers if answer is not None]
+            if graded:
+                kept[kind] = (sum(graded), len(graded))
+        return cls(kept)
+
+    @property
+    def name(self) -> str:
+        """Return the convention that the answers follow, or what keeps them from following one."""
+        if not self.kept:
+            return "not tested"
+        mixed = [f"{k} {n} of {of} kept" for k, (n, of) in self.kept.items() if 0 < n < of]
+        if mixed:
+            return "none: " + ", ".join(mixed)
+        dropped = [kind for kind, (n, _) in self.kept.items() if not n]
+        if not dropped:
+            return "closed"
+        others = [kind for kind in self.kept if kind not in dropped]
+        if not others:
+            return "regularized"
+        few, base = (dropped, "closed") if len(dropped) <= len(others) else (others, "regularized")
+        return f"{base} but {' '.join(few)}"
+
+    def follows(self, wanted: str) -> bool:
+        """Tell whether the answers follow a convention, on every kind that was tested."""
+        keeps = convention(wanted)
+        return all(n == (of if keeps[kind] else 0) for kind, (n, of) in self.kept.items())
+
+
+def _kinds(row: GoldenRow) -> set[str]:
+    return {span.touch for span in row.intervals if span.touch}
+
+
+USUAL = 64
+"""Lengths within 2^+-64 are usual; a range row of usual lengths is there for its direction."""
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """The widest range of scales 2^low..2^high around 1 in which a level holds."""
+
+    low: int
+    high: int
+
+    @classmethod
+    def of(cls, grades: Iterable[Grade], level: Level, which: int) -> Window | None:
+        """Return the window of lengths (which = 0) or of directions (1); None without such rows."""
+        rows = [(scales(g.row), g.fault(level) is None) for g in grades if g.row.tier == "range"]
+        along = [(s[which], ok) for s, ok in rows if (abs(s[0]) <= USUAL) == bool(which)]
+        if not along:
+            return None
+        good = [s for s, ok in along if ok]
+        bad_low = max((s for s, ok in along if not ok and s < 0), default=-10000)
+        bad_high = min((s for s, ok in along if not ok and s >= 0), default=10000)
+        inside = [0, *(s for s in good if bad_low < s < bad_high)]
+        return cls(min(inside), max(inside))
+
+
+def scales(row: GoldenRow) -> tuple[int, int]:
+    """Return the binary exponents of the largest length and the largest part of the direction."""
+    numbers = [x for _, leaf in leaves(row.solid) for x in lengths(leaf)]
+    return _exponent((*numbers, *row.ray.origin)), _exponent(row.ray.direction)
+
+
+def _exponent(numbers: Iterable[float]) -> int:
+    largest = max(map(abs, numbers), default=0.0)
+    return frexp(largest)[1] if largest else 0
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """The grades of one solid type, or of one family within it."""
+
+    name: str
+    grades: tuple[Grade, ...]
+
+    def tally(self, level: Level) -> Tally:
+        """Return how the rows fared on a level."""
+        return Tally.of(self.grades, level)
+
+    def granted(self) -> Level | None:
+        """Return the highest level granted, with all the levels below it, or None."""
+        best: Level | None = None
+        for level in LEVELS:
+            if not self.tally(level).granted:
+                break
+            best = level
+        return best
+
+    def worst(self) -> Grade:
+        """Return the grade to look at first: the lowest level failed, then k, then ulps."""
+        return max(self.grades, key=severity)
+
+
+def severity(grade: Grade) -> tuple[int, float, float, float]:
+    """Return a key that grows with how bad a grade is."""
+    failed = [i for i, level in enumerate(LEVELS) if grade.fault(level)]
+    return (len(LEVELS) - min(failed, default=len(LEVELS)), grade.strict, grade.squared, grade.ulps)
+
+
+def by_solid(grades: Iterable[Grade]) -> list[Group]:
+    """Return the grades by the type of their solid, a tree's by that of its root."""
+    return _groups(grades, lambda g: type_of(g.row.solid))
+
+
+def by_family(grades: Iterable[Grade]) -> list[Group]:
+    """Return the grades by family."""
+    return _groups(grades, lambda g: g.row.family)
+
+
+def _groups(grades: Iterable[Grade], name: Callable[[Grade], str]) -> list[Group]:
+    found: dict[str, list[Grade]] = {}
+    for grade in grades:
+        found.setdefault(name(grade), []).append(grade)
+    return [Group(key, tuple(group)) for key, group in found.items()]
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """Whether what was asked is granted; `reasons` say why not."""
+
+    granted: bool
+    reasons: tuple[str, ...]
+
+
+NOTHING = Verdict(False, ("nothing was tested",))
+
+
+def verdict(grades: Sequence[Grade], level: Level, wanted: str) -> Verdict:
+    """Return the verdict on a run: every solid type tested reaches the level and the convention."""
+    if not any(g.counts(level) and g.row.tier != "range" for g in grades):
+        return NOTHING
+    reasons = []
+    for group in by_solid(grades):
+        for lower in LEVELS[: LEVELS.index(level) + 1]:
+            tally = group.tally(lower)
+            if not tally.granted:
+                reasons.append(_refusal(group, lower, tally))
+                break
+        touches = Touches.of(group.grades)
+        if not touches.follows(wanted):
+            reasons.append(f"{group.name}: convention is {touches.name}, not {wanted}")
+    return Verdict(not reasons, tuple(reasons))
+
+
+def _refusal(group: Group, level: Level, tally: Tally) -> str:
+    if not tally.failed:
+        return f"{group.name}: no row decides {level}"
+    families = by_family(g for g in group.grades if g.row.tier != "range" and g.fault(level))
+    names = ", ".join(f"{f.name} ({len(f.grades)})" for f in families[:6])
+    more = f" and {len(families) - 6} more" if len(families) > 6 else ""
+    of = tally.passed + tally.failed
+    return f"{group.name}: {level} fails on {tally.failed} of {of} rows, in {names}{more}"

@@ -1,0 +1,247 @@
+"""pytest --raycert TARGET: one test for each family of golden rows, one subtest for each failure.
+
+TARGET is what `raycert certify` takes after `--`, as one word: a command that speaks the line
+protocol (`--raycert "./my_tracer --fast"`), or `module:function`, a Python callable that takes a
+solid and a ray of cases.model and returns the pairs:
+
+    # my_tracer.py
+    def trace(solid, ray):
+        return [(enter, leave), ...]
+
+    pytest --raycert my_tracer:trace --raycert-level stable
+    pytest --raycert ./my_tracer -k "far-deep or rim"
+    pytest --raycert ./my_tracer --raycert-expect known.toml
+
+The tests are named `raycert::FAMILY`. The target is asked once, for the families that are left
+after deselection; under pytest-xdist, each worker asks for a family when that test is its turn.
+Without --raycert nothing is loaded and nothing done.
+"""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+if TYPE_CHECKING:
+    from raycert.oracle.certify.expectations import Expectations
+    from raycert.oracle.certify.expected import Matched
+    from raycert.oracle.certify.grading import Grade
+    from raycert.oracle.certify.run import Plan, Prepared
+    from raycert.oracle.judge.levels import Level
+
+LEVELS = ("sound", "stable", "faithful", "exact")
+NAME = "raycert"
+EXPECTATIONS = "expectations"
+"""The test for the entries of --raycert-expect that are about nothing."""
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    """Add the options."""
+    group = parser.getgroup(NAME, "certify a ray tracer on the golden cases of raycert")
+    add = group.addoption
+    add("--raycert", metavar="TARGET", help="Certify this command, or module:function.")
+    add("--raycert-level", choices=LEVELS, default="sound", help="The level asked (sound).")
+    add("--raycert-convention", default="closed", help="The convention asked (closed).")
+    add("--raycert-family", action="append", default=[], help="Only this family (repeatable).")
+    add("--raycert-golden", metavar="DIR", help="Golden files instead of the installed ones.")
+    add("--raycert-expect", metavar="FILE", help="Known failures, with their reasons (TOML).")
+    add("--raycert-seed", type=int, metavar="N", help="Ask a block of fresh rows too.")
+    add("--raycert-fresh", type=int, metavar="COUNT", help="How many fresh rows (500).")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(session: pytest.Session, items: list[pytest.Item]) -> None:
+    """Add the tests of the families, before -k and the like choose among all."""
+    if session.config.getoption("--raycert"):
+        families = Families.from_parent(session, name=NAME, nodeid=NAME)
+        items.extend(node for node in session.genitems(families) if isinstance(node, pytest.Item))
+
+
+class Families(pytest.Collector):
+    """The families that the target declares the solids of."""
+
+    def collect(self) -> Iterable[pytest.Item]:
+        """Greet the target, and yield a test for each family of its rows."""
+        campaign = Campaign(self.session)
+        names = list(dict.fromkeys(row.family for row in campaign.prepared.rows))
+        names += [EXPECTATIONS] if campaign.file else []
+        for name in names:
+            yield FamilyTest.of(self, name, campaign)
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> str:
+        """Say why the target cannot be tested, without a traceback."""
+        return str(excinfo.value) or excinfo.exconly()
+
+
+class FamilyTest(pytest.Function):
+    """The test of one family. `campaign` asks for all families at once, if it may."""
+
+    campaign: Campaign
+
+    @classmethod
+    def of(cls, parent: pytest.Collector, name: str, campaign: Campaign) -> FamilyTest:
+        """Return the test of a family; with subtests where this pytest has them."""
+        has_subtests = parent.config.pluginmanager.hasplugin("subtests")
+
+        def each_in_a_subtest(subtests: Any) -> None:
+            campaign.check(name, subtests)
+
+        def all_in_one() -> None:
+            campaign.check(name, None)
+
+        call = each_in_a_subtest if has_subtests else all_in_one
+        made: FamilyTest = cls.from_parent(parent, name=name, callobj=call)
+        made.campaign = campaign
+        return made
+
+    def reportinfo(self) -> tuple[str, None, str]:
+        """Return where the test is: in no file."""
+        return NAME, None, f"{NAME}::{self.name}"
+
+
+class Campaign:
+    """One target in one session: what it declares, and the grades of what it was asked."""
+
+    def __init__(self, session: pytest.Session) -> None:
+        """Greet the target. Whatever keeps it from being tested is a `pytest.UsageError`."""
+        from raycert.cases.corpus import BadCorpus
+        from raycert.cases.protocol import BadLine
+        from raycert.oracle.certify.expectations import BadExpectations, Expectations
+        from raycert.oracle.certify.run import NotInCorpus, Unsuitable, prepare
+        from raycert.oracle.client.harness import Unusable
+
+        self.session = session
+        self.file: str | None = session.config.getoption("--raycert-expect")
+        self.expectations: Expectations = Expectations()
+        self.grades: dict[str, list[Grade]] = {}
+        try:
+            self.plan = _plan(session.config)
+            if self.file:
+                self.expectations = _read(self.file)
+            self.prepared: Prepared = prepare(self.plan)
+        except (BadCorpus, BadLine, BadExpectations, NotInCorpus, Unsuitable, Unusable) as error:
+            raise pytest.UsageError(f"raycert: {error}") from None
+
+    def check(self, family: str, subtests: Any) -> None:
+        """Fail on what is not expected of a family; xfail on what is."""
+        if family == EXPECTATIONS:
+            self._check_expectations()
+            return
+        matched = self._match(self._graded(family))
+        wrong = [*self._failures(family, matched), *_stale(matched, family, self.expectations)]
+        if subtests is None and wrong:
+            pytest.fail("\n".join(text for _, text in wrong), pytrace=False)
+        for name, text in wrong:
+            with subtests.test(msg=name):
+                pytest.fail(text, pytrace=False)
+        if matched.expected and not wrong:
+            about = [e for e in self.expectations.entries if _is_about(e.name, matched.expected)]
+            why = "; ".join(dict.fromkeys(entry.reason for entry in about))
+            pytest.xfail(f"{len(matched.expected)} known failures: {why}")
+
+    def _graded(self, family: str) -> list[Grade]:
+        """Return the grades of a family, asked now if they were not before."""
+        from raycert.oracle.certify.run import Unsuitable, conduct
+        from raycert.oracle.client.harness import Unusable
+
+        if family not in self.grades:
+            try:
+                result = conduct(self.prepared.only(self._families(family)))
+            except (Unusable, Unsuitable) as error:
+                pytest.fail(f"raycert: {error}", pytrace=False)
+            if result.ran.interrupted:
+                raise KeyboardInterrupt
+            for grade in result.grades:
+                self.grades.setdefault(grade.row.family, []).append(grade)
+        return self.grades[family]
+
+    def _families(self, family: str) -> list[str]:
+        """Return the families to ask for now: all that are left, or under xdist just this."""
+        if hasattr(self.session.config, "workerinput"):
+            return [family]
+        mine = [item for item in self.session.items if isinstance(item, FamilyTest)]
+        return [item.name for item in mine if item.name not in self.grades]
+
+    def _match(self, grades: Sequence[Grade]) -> Matched:
+        from raycert.oracle.certify.expected import match
+
+        level, convention = self.plan.level, self.plan.convention
+        return match(self.expectations, grades, level, convention, self.prepared.known)
+
+    def _failures(self, family: str, matched: Matched) -> Iterator[tuple[str, str]]:
+        """Yield (name, text) of what failed and was not expected to."""
+        from raycert.oracle.certify.expected import failed_level
+
+        grades = {grade.row.id: grade for grade in self.grades[family]}
+        for said in matched.new:
+            grade = grades.get(said.partition(": ")[0])
+            if grade is not None and (level := failed_level(grade, self.plan.level)):
+                yield grade.row.id, f"{said}\n{self._told(grade, level)}"
+            elif "no row decides" not in said and said != "nothing was tested":
+                yield said.partition(": ")[0], said  # a convention; families may decide nothing
+
+    def _told(self, grade: Grade, level: Level) -> str:
+        """Return what a person needs to see of a failure, with the command that repeats it."""
+        words = shlex.split(self.session.config.getoption("--raycert"))
+        fresh = self.plan.fresh.options() if self.plan.fresh else ()
+        repeat = ("raycert", "certify", "--level", self.plan.level, *fresh, "--id", grade.row.id)
+        lines = [grade.row.why, f"{level}: {grade.fault(level)}"]
+        if grade.answer is not None:
+            lines.append(f"answered {[list(pair) for pair in grade.answer]}")
+        lines.append(f"expected {[list(pair) for pair in grade.row.expected]}")
+        return "\n".join([*lines, f"repeat   {shlex.join((*repeat, '--', *words))}"])
+
+    def _check_expectations(self) -> None:
+        grades = [grade for graded in self.grades.values() for grade in graded]
+        matched = self._match(grades)
+        whole = [text for text in matched.unexpected_passes if text.startswith("convention ")]
+        wrong = [*matched.unmatched, *whole]
+        if wrong:
+            pytest.fail(f"{self.file}:\n" + "\n".join(wrong), pytrace=False)
+
+
+def _stale(matched: Matched, family: str, known: Expectations) -> Iterator[tuple[str, str]]:
+    """Yield (name, text) of the entries about a family that pass."""
+    for text in matched.unexpected_passes:
+        name = text.partition(": ")[0]
+        if name == f"family {family}" or name.startswith(f"{family}/"):
+            yield name, f"{text}: expected to fail, and passes; take it from the file"
+
+
+def _is_about(name: str, expected: Iterable[str]) -> bool:
+    """Tell whether an entry's name is that of an expected failure, its family or its solid."""
+    return any(said == name or said.startswith((f"{name}/", f"{name}: ")) for said in expected)
+
+
+def _plan(config: pytest.Config) -> Plan:
+    """Return the plan that the options ask for."""
+    from raycert.cases.corpus import GOLDEN
+    from raycert.cases.protocol import convention
+    from raycert.oracle.certify.run import Plan
+    from raycert.oracle.certify.selection import Selection
+    from raycert.oracle.client.target import target
+    from raycert.oracle.corpus.fresh import COUNT, Fresh
+
+    option, seed = config.getoption, config.getoption("--raycert-seed")
+    convention(option("--raycert-convention"))
+    return Plan(
+        target(shlex.split(option("--raycert"))),
+        option("--raycert-level"),
+        option("--raycert-convention"),
+        Selection(families=tuple(option("--raycert-family"))),
+        golden=Path(option("--raycert-golden") or GOLDEN),
+        fresh=None if seed is None else Fresh(seed, option("--raycert-fresh") or COUNT),
+    )
+
+
+def _read(file: str) -> Expectations:
+    from raycert.oracle.certify.expectations import read
+
+    try:
+        return read(Path(file).read_text(encoding="utf-8"), file)
+    except (OSError, UnicodeDecodeError) as error:
+        raise pytest.UsageError(f"--raycert-expect: {error}") from None

@@ -1,0 +1,1 @@
+"""From questions to golden rows: written, checked, drawn fresh, adopted."""

@@ -1,0 +1,1 @@
+"""Exact answers for rays and solids, and the judgement of what others answer."""

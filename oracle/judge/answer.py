@@ -1,0 +1,206 @@
+"""An answer as what it claims, an interval list, a first hit, a yes or no, and how far it is right.
+
+Each kind is compared with an inner list I and an outer list O, I <= exact <= O:
+
+    intervals   I <= answer <= O, as sets of t, with not too many pairs in an interval of O
+    first       `first_fault`: null, or a t that may be the first
+    any         no: I is empty; yes: O is not
+
+and with the expected list, for `faithful` and `exact`. All rules are monotone: what is right stays
+so when I shrinks and O grows, so each kind has a backward error k.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, isinf, isnan
+from typing import Protocol
+
+from raycert.cases.accept import Accept, Numbers
+from raycert.cases.hits import first_end
+from raycert.cases.protocol import FromInside, Hello, Reply
+from raycert.oracle.exact.surd import ZERO, dyadic
+from raycert.oracle.judge.hits import first_fault
+from raycert.oracle.judge.levels import Enclosures, Judge
+from raycert.oracle.judge.moved import Measure
+
+
+class Answer(Protocol):
+    """What every kind of answer can be asked."""
+
+    def malformed(self, judge: Judge) -> str | None:
+        """Return what is wrong with the answer as such; None if nothing is."""
+
+    def fault(self, accept: Accept) -> str | None:
+        """Return why it is not between the lists of a level; None if it is."""
+
+    def is_expected(self, wanted: Numbers) -> str | None:
+        """Return why it is not the answer that follows from a list; None if it is."""
+
+    def is_faithful(self, wanted: Numbers, enclosures: Enclosures) -> str | None:
+        """Return why a number of it is not one of the two around the exact one; None if it is."""
+
+    def backward_error(self, judge: Judge, measure: Measure) -> float:
+        """Return the least k that accepts it; infinite where none does."""
+
+    def forward_error(self, judge: Judge) -> float:
+        """Return the largest distance of a number of it from the exact one, in ulps."""
+
+    def keeps_touch(self, wanted: Numbers) -> bool | None:
+        """Tell whether it kept the touches that are the whole of a list; None if it cannot tell."""
+
+
+def answer(reply: Reply, hello: Hello) -> Answer:
+    """Return what a reply claims, -0 as 0."""
+    if hello.answers == "any":
+        return YesNo(bool(reply.hit))
+    if hello.answers == "first":
+        t = reply.first
+        return First(None if t is None else t + 0.0, hello.from_inside)
+    return Listed(tuple((a + 0.0, b + 0.0) for a, b in reply.intervals or ()))
+
+
+@dataclass(frozen=True, slots=True)
+class Listed:
+    """An interval list."""
+
+    pairs: Numbers
+
+    def malformed(self, judge: Judge) -> str | None:
+        """Return what is wrong with the list."""
+        return judge.malformed(self.pairs)
+
+    def fault(self, accept: Accept) -> str | None:
+        """Return why it is not between the lists."""
+        return accept.fault(self.pairs)
+
+    def is_expected(self, wanted: Numbers) -> str | None:
+        """Return why it is not the wanted list."""
+        shown = [list(pair) for pair in wanted]
+        return None if self.pairs == wanted else f"is not the expected list {shown}"
+
+    def is_faithful(self, wanted: Numbers, enclosures: Enclosures) -> str | None:
+        """Return why it has not as many pairs, or which end is none of the two numbers."""
+        if len(self.pairs) != len(wanted):
+            return f"{len(self.pairs)} pairs, {len(wanted)} expected"
+        for pair, around in zip(self.pairs, enclosures, strict=True):
+            for x, two in zip(pair, around, strict=True):
+                if x not in two:
+                    return f"{x!r} is not one of the two numbers around the exact one, {two}"
+        return None
+
+    def backward_error(self, judge: Judge, measure: Measure) -> float:
+        """Return the least k whose lists hold it."""
+        return judge.backward_error(self.pairs, measure)
+
+    def forward_error(self, judge: Judge) -> float:
+        """Return the largest distance of an end; infinite for another number of pairs."""
+        return judge.forward_error(self.pairs)
+
+    def keeps_touch(self, wanted: Numbers) -> bool | None:
+        """Tell whether there is a pair."""
+        return bool(self.pairs)
+
+
+@dataclass(frozen=True, slots=True)
+class First:
+    """A first hit at t, or none; from inside it is what `from_inside` says."""
+
+    t: float | None
+    from_inside: FromInside
+
+    def malformed(self, judge: Judge) -> str | None:
+        """Return why t is no parameter of the ray."""
+        if self.t is None:
+            return None
+        if isnan(self.t):
+            return "first is NaN"
+        if self.t < 0:
+            return f"first {self.t!r} is negative"
+        may_overflow = any(isinf(enter) for enter, _ in judge.expected)
+        return "first is infinite" if isinf(self.t) and not may_overflow else None
+
+    def fault(self, accept: Accept) -> str | None:
+        """Return why t cannot be the first."""
+        return first_fault(self.t, accept.inner, accept.outer, self.from_inside, 0.0, inf)
+
+    def is_expected(self, wanted: Numbers) -> str | None:
+        """Return why t is not the first end of the wanted list."""
+        end = first_end(wanted, self.from_inside)
+        t = None if end is None else wanted[end[0]][end[1]]
+        return None if self.t == t else f"first is {_null(self.t)}, {_null(t)} expected"
+
+    def is_faithful(self, wanted: Numbers, enclosures: Enclosures) -> str | None:
+        """Return why t is none of the two numbers around the first end."""
+        end = first_end(wanted, self.from_inside)
+        if end is None or self.t is None:
+            return self.is_expected(wanted)
+        two = enclosures[end[0]][end[1]]
+        if self.t in two:
+            return None
+        return f"{self.t!r} is not one of the two numbers around the exact one, {two}"
+
+    def backward_error(self, judge: Judge, measure: Measure) -> float:
+        """Return the least k for which t may be the first."""
+        if self.malformed(judge):
+            return inf
+        t = None if self.t is None else dyadic(self.t)
+        last = dyadic(inf)
+        return judge.least_k(
+            measure,
+            lambda inner, outer: not first_fault(t, inner, outer, self.from_inside, ZERO, last),
+        )
+
+    def forward_error(self, judge: Judge) -> float:
+        """Return the distance of t from the exact first; infinite where one of them is none."""
+        end = first_end(judge.expected, self.from_inside)
+        if end is None or self.t is None or self.malformed(judge):
+            return 0.0 if end is None and self.t is None else inf
+        return judge.ulps(self.t, judge.merged[end[0]][end[1]])
+
+    def keeps_touch(self, wanted: Numbers) -> bool | None:
+        """Tell whether there is a hit. From inside, no hit may be the mode, not the convention."""
+        if self.from_inside != "zero" and wanted and wanted[0][0] == 0:
+            return None
+        return self.t is not None
+
+
+@dataclass(frozen=True, slots=True)
+class YesNo:
+    """Whether anything is hit."""
+
+    hit: bool
+
+    def malformed(self, judge: Judge) -> str | None:
+        """Return None: nothing can be wrong with the form."""
+        return None
+
+    def fault(self, accept: Accept) -> str | None:
+        """Return why a yes, or a no, cannot be right."""
+        if self.hit:
+            return None if accept.outer else "a hit, and the outer list is empty"
+        return f"no hit, and the inner list has {accept.inner[0]}" if accept.inner else None
+
+    def is_expected(self, wanted: Numbers) -> str | None:
+        """Return why it is not whether the list has a pair."""
+        return None if self.hit == bool(wanted) else f"hit is {self.hit}, {bool(wanted)} expected"
+
+    def is_faithful(self, wanted: Numbers, enclosures: Enclosures) -> str | None:
+        """Return the same: there is no number in it."""
+        return self.is_expected(wanted)
+
+    def backward_error(self, judge: Judge, measure: Measure) -> float:
+        """Return the least k for which it may be right."""
+        return judge.least_k(measure, lambda inner, outer: bool(outer) if self.hit else not inner)
+
+    def forward_error(self, judge: Judge) -> float:
+        """Return 0 where it is right, else infinity."""
+        return 0.0 if self.hit == bool(judge.expected) else inf
+
+    def keeps_touch(self, wanted: Numbers) -> bool | None:
+        """Tell whether it is a hit."""
+        return self.hit
+
+
+def _null(t: float | None) -> str:
+    return "null" if t is None else repr(t)

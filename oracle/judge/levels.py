@@ -1,0 +1,238 @@
+"""The judge: is an answer right, how far from right, and on which level. Pure, exact.
+
+An answer is a list of pairs of numbers of a format. It is compared as a set of t with the lists of
+`judge.moved`: inner_k <= answer <= outer_k, as far as the format can tell them apart (`told`).
+"""
+
+from __future__ import annotations
+
+from bisect import bisect_left
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from math import frexp, inf, isinf
+from typing import Literal
+
+from raycert.cases.accept import Accept, Numbers, Pairs, malformed
+from raycert.cases.case import Tier
+from raycert.cases.formats import Format
+from raycert.cases.model import Intersection, Ray, Solid, Tree, leaves
+from raycert.oracle.exact.intervals import Intervals, contains, meets
+from raycert.oracle.exact.rounding import enclose, expected, nearest
+from raycert.oracle.exact.surd import INFINITY, Surd, dyadic, sign_1
+from raycert.oracle.exact.trace import trace
+from raycert.oracle.judge.moved import LAST_STEP, Measure, Scene, Step, moved_leaf
+
+Level = Literal["sound", "stable", "faithful", "exact"]
+LEVELS: tuple[Level, ...] = ("sound", "stable", "faithful", "exact")
+"""From weak to strong; each includes the ones before it."""
+MEASURES: dict[Level, Measure] = {"sound": "squared", "stable": "strict"}
+Enclosures = tuple[tuple[tuple[float, float], tuple[float, float]], ...]
+"""For each pair of a list, the two numbers that enclose each of its ends."""
+LIMIT = 20
+"""The step of k = 64, which `sound` and `stable` allow."""
+
+
+def saturated(t: Surd, fmt: Format) -> Surd:
+    """Return t, or infinity where it is beyond the format's largest number."""
+    return INFINITY if t > dyadic(fmt.largest) else t
+
+
+def told(t: Surd, up: bool, fmt: Format) -> Surd:
+    """Return a bound as far as the format can tell it: the benefit of the doubt is the answer's.
+
+    Beyond the largest number there is only infinity; below the smallest normal number, where a
+    correctly rounded t is no longer within u t, only the multiples of 2^least around it.
+    """
+    if t < dyadic(fmt.smallest_normal):
+        rounded = enclose(t, fmt)
+        return dyadic(rounded.up if up else rounded.down)
+    return saturated(t, fmt)
+
+
+@dataclass(frozen=True)
+class Judge:
+    """One case, ready to judge answers: everything that it needs is computed once, on demand."""
+
+    solid: Solid
+    ray: Ray
+    format: Format
+    tier: Tier = "generic"
+    tolerance: float = 0.0
+
+    @cached_property
+    def exact(self) -> Intervals:
+        """Return the exact list."""
+        return trace(self.solid, self.ray).intervals
+
+    @cached_property
+    def _expected(self) -> tuple[Intervals, Numbers]:
+        return expected(self.exact, self.format)
+
+    @property
+    def merged(self) -> Intervals:
+        """Return the exact list with the pairs joined that touch after rounding."""
+        return self._expected[0]
+
+    @property
+    def expected(self) -> Numbers:
+        """Return the exact list, each endpoint rounded to nearest; what touches is merged."""
+        return self._expected[1]
+
+    @property
+    def enclosures(self) -> Enclosures:
+        """Return, for each end of the expected list, the two numbers around the exact one."""
+        return tuple((self._around(a), self._around(b)) for a, b in self.merged)
+
+    def _around(self, t: Surd) -> tuple[float, float]:
+        rounded = enclose(t, self.format)
+        return rounded.down, rounded.up
+
+    @cached_property
+    def scene(self) -> Scene:
+        """Return the scene to move."""
+        return Scene(self.solid, self.ray, self.format, self.tolerance)
+
+    def moved(self, step: int, measure: Measure, sigma: int) -> Intervals:
+        """Return the outer (sigma = 1) or inner (-1) list of a step of k, as far as told."""
+        moved = self.scene.by_k(Step.at(step), measure, sigma)
+        ends = (
+            (told(a, sigma < 0, self.format), told(b, sigma > 0, self.format)) for a, b in moved
+        )
+        return tuple((a, b) for a, b in ends if a <= b)
+
+    def most(self, outer: Intervals, step: int, measure: Measure) -> tuple[int, ...]:
+        """Return how many pairs may lie in each interval of an outer list.
+
+        One for a primitive and for an intersection of primitives; else the number of leaves whose
+        own outer list meets it.
+        """
+        if is_convex(self.solid):
+            return (1,) * len(outer)
+        lists = [
+            moved_leaf(leaf, self.scene.shift(leaf, Step.at(step), measure), 1, self.scene.grid)
+            for _, leaf in leaves(self.solid)
+        ]
+        return tuple(sum(any(meets(a, b) for b in own) for own in lists) for a in outer)
+
+    def accept(self, level: Level) -> Accept:
+        """Return the lists that decide `sound` or `stable` by comparing numbers of the format.
+
+        A number a of the format has a <= x exactly where a <= x rounded down. So inner enters round
+        down and leaves up, outer enters up and leaves down, and what empties is dropped.
+        """
+        measure = MEASURES[level]
+        inner, outer = self.moved(LIMIT, measure, -1), self.moved(LIMIT, measure, 1)
+        narrow = [(self._up(a), self._down(b)) for a, b in outer]
+        kept = [i for i, (a, b) in enumerate(narrow) if a <= b]
+        most = self.most(outer, LIMIT, measure)
+        return Accept(
+            tuple((self._down(a), self._up(b)) for a, b in inner),
+            tuple(narrow[i] for i in kept),
+            tuple(most[i] for i in kept),
+        )
+
+    def _down(self, t: Surd) -> float:
+        return enclose(t, self.format).down
+
+    def _up(self, t: Surd) -> float:
+        return enclose(t, self.format).up
+
+    def malformed(self, answer: Pairs) -> str | None:
+        """Return what is wrong with an answer's form here; None if nothing is."""
+        overflow = any(saturated(enter, self.format) == INFINITY for enter, _ in self.exact)
+        reason = malformed(answer, overflow)
+        if reason or self.tier != "lattice":
+            return reason
+        endless = bool(self.exact) and not self.exact[-1][1].finite
+        if (bool(answer) and answer[-1][1] == inf) != endless and answer:
+            return f"the last leave is {'finite' if endless else 'infinite'}, the exact one is not"
+        return None
+
+    def accepts(self, answer: Pairs, step: int, measure: Measure) -> bool:
+        """Tell whether inner <= answer <= outer for a step of k."""
+        given = tuple((dyadic(a), dyadic(b)) for a, b in answer)
+        return contains(self.moved(step, measure, 1), given) and contains(
+            given, self.moved(step, measure, -1)
+        )
+
+    def backward_error(self, answer: Pairs, measure: Measure) -> float:
+        """Return the least k that accepts an answer, to two significant bits, from 1/16 up.
+
+        Infinite for what is no list, and where no k does.
+        """
+        if malformed(answer, True):
+            return inf
+        given = tuple((dyadic(a), dyadic(b)) for a, b in answer)
+        return self.least_k(
+            measure, lambda inner, outer: contains(outer, given) and contains(given, inner)
+        )
+
+    def least_k(self, measure: Measure, right: Callable[[Intervals, Intervals], bool]) -> float:
+        """Return the least k for whose inner and outer list `right` holds; infinite without one.
+
+        `right` has to be monotone: true for k, it is true for all larger ones.
+        """
+
+        def holds(step: int) -> bool:
+            return right(self.moved(step, measure, -1), self.moved(step, measure, 1))
+
+        steps = range(LAST_STEP + 1)
+        i = bisect_left(steps, True, key=holds)
+        return float(Step.at(i)) if i < len(steps) else inf
+
+    def forward_error(self, answer: Pairs) -> float:
+        """Return the largest distance of an endpoint from the exact one, in ulps of the exact one.
+
+        Infinite where the number of pairs is not that of the expected list. The result is a
+        rounded number for people; nothing is decided by it.
+        """
+        if len(answer) != len(self.merged) or malformed(answer, True):
+            return inf
+        return max((self.ulps(x, t) for x, t in self._ends(answer)), default=0.0)
+
+    def _ends(self, answer: Pairs) -> Iterator[tuple[float, Surd]]:
+        """Yield each endpoint of an answer with the exact one; the lists are equally long."""
+        for given, true in zip(answer, self.merged, strict=True):
+            yield from zip(given, true, strict=True)
+
+    def ulps(self, x: float, t: Surd) -> float:
+        """Return the distance of a number from an exact t, in ulps of the exact one."""
+        if isinf(x) or not saturated(t, self.format).finite:
+            return 0.0 if x == nearest(t, self.format) else inf
+        below, ulp = enclose(t, self.format).down, self.format.least
+        if below:
+            ulp = max(frexp(below)[1] - self.format.precision, ulp)
+        return enclose(_distance(dyadic(x), t, ulp), self.format).nearest
+
+    def faithful(self, answer: Pairs) -> bool:
+        """Tell whether every endpoint is one of the two numbers that enclose the exact one."""
+        if len(answer) != len(self.merged):
+            return False
+        return all(x in self._around(t) for x, t in self._ends(answer))
+
+    def holds(self, level: Level, answer: Pairs) -> bool:
+        """Tell whether an answer is what a level asks for."""
+        if self.malformed(answer):
+            return False
+        match level:
+            case "exact":
+                return tuple(answer) == self.expected
+            case "faithful":
+                return self.faithful(answer)
+        return self.accept(level).fault(answer) is None
+
+
+def is_convex(solid: Solid) -> bool:
+    """Tell whether a solid is a primitive or an intersection of such: at most one interval."""
+    if isinstance(solid, Intersection):
+        return all(is_convex(part) for part in solid.of)
+    return not isinstance(solid, Tree)
+
+
+def _distance(x: Surd, t: Surd, ulp: int) -> Surd:
+    """Return |x - t| / 2^ulp, x rational."""
+    up, down = 1 << max(-ulp, 0), 1 << max(ulp, 0)
+    a, b, z = (x.x * t.z - t.x * x.z) * up, -t.y * x.z * up, x.z * t.z * down
+    flip = -1 if sign_1(a, b, t.d) < 0 else 1
+    return Surd(flip * a, flip * b, t.d, z)

@@ -1,0 +1,190 @@
+"""The backward error of every pixel of a scene, exactly, at a price that a picture can pay.
+
+For each ray the tree is first cut down to the leaves that the ray comes near. What is dropped is
+away by 2^-20 of the sizes of the numbers that meet, in doubles whose error is below 2^-40 of them;
+up to k = 2^20, k u s(t) stays below 2^-24 of them wherever the ray is near. So up to there the
+outer list of a dropped leaf is empty, as its inner and its exact lists are, and the lists of the
+cut tree are those of the whole: the doubles leave work out, and decide nothing. Beyond that k the
+whole tree is judged.
+
+The k of a list is found from a guess, by accepting at one step and refusing at the one below; that
+is the least k, as the judge's own bisection finds it, because the measure is monotone in k.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from math import hypot, inf
+
+from raycert.cases.accept import Pairs, malformed
+from raycert.cases.formats import BINARY64
+from raycert.cases.model import (
+    Cylinder,
+    Difference,
+    HalfSpace,
+    InfiniteCylinder,
+    Intersection,
+    Leaf,
+    Ray,
+    Slab,
+    Solid,
+    Sphere,
+    Tree,
+    Union,
+    Vector,
+)
+from raycert.cases.scene import Scene, frame, pixel_ray
+from raycert.oracle.judge.levels import Judge
+from raycert.oracle.judge.moved import Step
+
+NEAR = 2.0**-20
+LAST = 48
+"""The step of k = 2^20: up to it the cut tree has the lists of the whole."""
+STEEP = 0.01
+"""The sine between line and axis from which on their distance is told in doubles."""
+FEW = 1000
+"""So few pixels are judged before other processes have started."""
+Answers = Sequence[Pairs]
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row of pixels, and the lists answered for it."""
+
+    row: int
+    answers: Answers
+
+
+def row_errors(scene: Scene, given: Row) -> list[float]:
+    """Return the strict backward error of each pixel in a row."""
+    seen, solid = frame(scene.camera), scene.solid
+    errors: list[float] = []
+    guess = 0
+    for column, answer in enumerate(given.answers):
+        ray = pixel_ray(seen, scene.size, column, given.row)
+        k, guess = error(solid, ray, answer, guess)
+        errors.append(k)
+    return errors
+
+
+def error(solid: Solid, ray: Ray, answer: Pairs, guess: int = 0) -> tuple[float, int]:
+    """Return k of an answer, and the step it was found at, as a guess for the next.
+
+    It is `Judge.backward_error` under the strict measure.
+    """
+    if malformed(answer, True):
+        return inf, guess
+    near = cut(solid, ray)
+    if near is None:
+        return (float(Step.at(0)), 0) if not answer else _in_full(solid, ray, answer)
+    judge = Judge(near, ray, BINARY64)
+    if not answer and not judge.exact:
+        return float(Step.at(0)), 0
+    step = _least(lambda i: judge.accepts(answer, i, "strict"), guess)
+    return (float(Step.at(step)), step) if step <= LAST else _in_full(solid, ray, answer)
+
+
+def _in_full(solid: Solid, ray: Ray, answer: Pairs) -> tuple[float, int]:
+    return Judge(solid, ray, BINARY64).backward_error(answer, "strict"), LAST
+
+
+def _least(accepts: Callable[[int], bool], guess: int) -> int:
+    """Return the least step that accepts, LAST + 1 if none up to there does.
+
+    The steps around the guess are tried in strides that double.
+    """
+    low, high = -1, LAST + 1
+    stride = 1
+    step = min(guess, LAST)
+    while low < step < high:
+        if accepts(step):
+            high, step = step, step - stride
+        else:
+            low, step = step, step + stride
+        stride *= 2
+    while high - low > 1:
+        middle = (low + high) // 2
+        low, high = (low, middle) if accepts(middle) else (middle, high)
+    return high
+
+
+def cut(solid: Solid, ray: Ray) -> Solid | None:
+    """Return a solid without the leaves that a ray stays away from; None if nothing is left."""
+    if not isinstance(solid, Tree):
+        return None if _apart(solid, ray) else solid
+    parts = [cut(part, ray) for part in solid.of]
+    kept = tuple(part for part in parts if part is not None)
+    match solid:
+        case Union():
+            return Union(kept) if kept else None
+        case Intersection():
+            return Intersection(kept) if len(kept) == len(parts) else None
+        case Difference():
+            return Difference(kept) if parts[0] is not None else None
+
+
+def _apart(leaf: Leaf, ray: Ray) -> bool:
+    """Tell whether a ray's line stays away from a leaf, by far more than any rounding."""
+    match leaf:
+        case HalfSpace() | Slab():
+            return False
+        case Sphere(center, radius):
+            return _passes(center, radius, ray)
+        case InfiniteCylinder():
+            return _beside(leaf, ray)
+        case Cylinder(p, q, radius):
+            middle = (p[0] / 2 + q[0] / 2, p[1] / 2 + q[1] / 2, p[2] / 2 + q[2] / 2)
+            return _beside(leaf, ray) or _passes(middle, radius + hypot(*_minus(q, p)) / 2, ray)
+
+
+def _passes(center: Vector, radius: float, ray: Ray) -> bool:
+    """Tell whether a line passes a point at more than the radius."""
+    y, v = _minus(ray.origin, center), ray.direction
+    sizes = hypot(*y) + hypot(*center) + radius
+    area, speed = hypot(*_cross(v, y)), hypot(*v)
+    return speed > 0 and inf > area / speed > radius + NEAR * sizes
+
+
+def _beside(leaf: InfiniteCylinder | Cylinder, ray: Ray) -> bool:
+    """Tell whether a line passes an axis at more than the radius; not where they are parallel."""
+    w, y, v = _minus(leaf.q, leaf.p), _minus(ray.origin, leaf.p), ray.direction
+    sizes = hypot(*y) + hypot(*leaf.p) + hypot(*leaf.q) + leaf.radius
+    x = _cross(v, w)
+    area = hypot(*x)
+    if area <= STEEP * hypot(*v) * hypot(*w):
+        return False
+    distance = abs(y[0] * x[0] + y[1] * x[1] + y[2] * x[2]) / area
+    return inf > distance > leaf.radius + NEAR * sizes
+
+
+def every_row(scene: Scene, answers: Answers, processes: int = 2) -> Iterator[list[float]]:
+    """Yield the errors of each row in turn, given the lists of all pixels; in so many processes."""
+    from concurrent.futures import ProcessPoolExecutor
+    from functools import partial
+    from multiprocessing import get_context
+
+    width, height = scene.size
+    rows = [Row(row, answers[row * width : (row + 1) * width]) for row in range(height)]
+    work = partial(row_errors, scene)
+    if processes < 2 or len(answers) < FEW:
+        yield from map(work, rows)
+        return
+    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
+        yield from pool.map(work, rows, chunksize=2)
+
+
+def _between(p: Vector, q: Vector) -> Vector:
+    return (p[0] / 2 + q[0] / 2, p[1] / 2 + q[1] / 2, p[2] / 2 + q[2] / 2)
+
+
+def _minus(a: Vector, b: Vector) -> Vector:
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def _cross(a: Vector, b: Vector) -> Vector:
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )

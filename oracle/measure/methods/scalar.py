@@ -1,0 +1,177 @@
+"""One ray at a time over any arithmetic: leaves by a formula, trees by the algebra of lists.
+
+A formula is a curve (`formulas`), and a wall that brings the cylinder to it: square to the unit
+axis, times |w| without a root, in a frame, by a determinant, or after a shift in space.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from raycert.cases.model import (
+    Cylinder,
+    Difference,
+    HalfSpace,
+    InfiniteCylinder,
+    Intersection,
+    Ray,
+    Slab,
+    Solid,
+    Sphere,
+    Tree,
+    Union,
+)
+from raycert.oracle.measure.methods.formulas import (
+    DOUBLES,
+    Arithmetic,
+    Curve,
+    Found,
+    Number,
+    Vector,
+    along,
+    cross,
+    dot,
+    ends,
+    minus,
+    textbook,
+)
+from raycert.oracle.measure.methods.method import FAILURES, Answered, Case, answered
+from raycert.oracle.zoo.lists import LINE, common, share, subtract, unite
+
+Wall = Callable[[Arithmetic, Curve, Vector, Vector, Vector, Number], Found]
+
+
+def by_unit(ar: Arithmetic, w: Vector) -> Vector:
+    """Return w / |w|, as the seed has it."""
+    length = ar.root(dot(w, w))
+    return (w[0] / length, w[1] / length, w[2] / length)
+
+
+def square(ar: Arithmetic, curve: Curve, y: Vector, v: Vector, w: Vector, r: Number) -> Found:
+    """Return where the ray is in the wall: vectors crossed with the unit axis."""
+    n = by_unit(ar, w)
+    return curve(ar, cross(y, n), cross(v, n), r * r)
+
+
+def rootless(ar: Arithmetic, curve: Curve, y: Vector, v: Vector, w: Vector, r: Number) -> Found:
+    """Return the same with every length times |w|, so that the axis needs no root."""
+    return curve(ar, cross(y, w), cross(v, w), r * r * dot(w, w))
+
+
+def framed(ar: Arithmetic, curve: Curve, y: Vector, v: Vector, w: Vector, r: Number) -> Found:
+    """Return the same in a frame whose third axis is that of the solid."""
+    n, zero = by_unit(ar, w), ar.number(0.0)
+    least = min(range(3), key=lambda i: abs(n[i]))
+    unit = [zero, zero, zero]
+    unit[least] = ar.number(1.0)
+    e = by_unit(ar, cross(n, (unit[0], unit[1], unit[2])))
+    f = cross(n, e)
+    return curve(ar, (dot(y, e), dot(y, f), zero), (dot(v, e), dot(v, f), zero), r * r)
+
+
+def determinant(ar: Arithmetic, curve: Curve, y: Vector, v: Vector, w: Vector, r: Number) -> Found:
+    """Return the same with D = r^2 A - (y . (v x n))^2."""
+    n = by_unit(ar, w)
+    vn, yn = cross(v, n), cross(y, n)
+    a, det = dot(vn, vn), dot(y, vn)
+    if a == 0:
+        return LINE if dot(yn, yn) <= r * r else []
+    return ends(ar, a, dot(vn, yn), r * r * a - det * det)
+
+
+def shifted(ar: Arithmetic, curve: Curve, y: Vector, v: Vector, w: Vector, r: Number) -> Found:
+    """Return the same from the closest approach to p in space."""
+    n = by_unit(ar, w)
+    return _from_nearest(y, v, lambda near: curve(ar, cross(near, n), cross(v, n), r * r))
+
+
+def shifted_ball(ar: Arithmetic, y: Vector, v: Vector, rr: Number) -> Found:
+    """Return where the ray is in a ball, from the closest approach to its center."""
+    return _from_nearest(y, v, lambda near: textbook(ar, near, v, rr))
+
+
+def _from_nearest(y: Vector, v: Vector, solve: Callable[[Vector], Found]) -> Found:
+    a = dot(v, v)
+    if a == 0:
+        return solve(y)
+    t = -dot(v, y) / a
+    return [(a + t, b + t) for a, b in solve(along(y, t, v))]
+
+
+@dataclass(frozen=True)
+class Formula:
+    """How the wall of a cylinder and a ball are solved."""
+
+    curve: Curve
+    wall: Wall = square
+    ball: Curve | None = None
+
+
+@dataclass(frozen=True)
+class Scalar:
+    """A formula over an arithmetic; called with cases it is the `solve` of a method."""
+
+    formula: Formula
+    arithmetic: Arithmetic = DOUBLES
+
+    def __call__(self, cases: Sequence[Case]) -> list[Answered]:
+        """Return the list of each case."""
+        with self.arithmetic.setting():
+            return [self.answer(case) for case in cases]
+
+    def answer(self, case: Case) -> Answered:
+        """Return the list of one case, computed in the setting of the arithmetic."""
+        tell = self.arithmetic.tell
+        try:
+            found = self.node(case.solid, case.ray)
+            return answered((tell(a), tell(b)) for a, b in found)
+        except FAILURES:
+            return None
+
+    def node(self, solid: Solid, ray: Ray) -> Found:
+        """Return the list of a solid or of a part of it, in numbers of the arithmetic."""
+        if isinstance(solid, Tree):
+            lists = [self.node(part, ray) for part in solid.of]
+            match solid:
+                case Union():
+                    return unite(lists)
+                case Intersection():
+                    return share(lists)
+                case Difference():
+                    return subtract(lists)
+        ar = self.arithmetic
+        line = self._leaf(solid, self._vector(ray.origin), self._vector(ray.direction))
+        if any(a != a or b != b for a, b in line):
+            raise ArithmeticError("NaN")
+        return common(line, [(ar.number(0.0), ar.infinity)])
+
+    def _leaf(self, solid: Solid, u: Vector, v: Vector) -> Found:
+        ar, formula = self.arithmetic, self.formula
+        match solid:
+            case HalfSpace(point, normal):
+                return self._plane(minus(u, self._vector(point)), v, self._vector(normal))
+            case Sphere(center, radius):
+                ball, r = formula.ball or formula.curve, ar.number(radius)
+                return ball(ar, minus(u, self._vector(center)), v, r * r)
+        assert isinstance(solid, Slab | InfiniteCylinder | Cylinder)
+        p, q = self._vector(solid.p), self._vector(solid.q)
+        y, w, parts = minus(u, p), minus(q, p), []
+        if not isinstance(solid, Slab):
+            parts.append(formula.wall(ar, formula.curve, y, v, w, ar.number(solid.radius)))
+        if not isinstance(solid, InfiniteCylinder):
+            back = (-w[0], -w[1], -w[2])
+            parts += [self._plane(y, v, back), self._plane(minus(u, q), v, w)]
+        return share(parts)
+
+    def _plane(self, y: Vector, v: Vector, n: Vector) -> Found:
+        """Return where (y + t v) . n <= 0; quotients need no unit normal."""
+        height, climb, end = dot(y, n), dot(v, n), self.arithmetic.infinity
+        if climb == 0:
+            return [(-end, end)] if height <= 0 else []
+        t = -height / climb
+        return [(-end, t)] if climb > 0 else [(t, end)]
+
+    def _vector(self, a: tuple[float, float, float]) -> Vector:
+        number = self.arithmetic.number
+        return (number(a[0]), number(a[1]), number(a[2]))

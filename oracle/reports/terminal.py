@@ -1,0 +1,140 @@
+"""The certificate on a terminal: verdict, levels per solid type, the worst case of each family."""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
+
+from raycert.oracle.judge.levels import LEVELS
+from raycert.oracle.reports.reading import (
+    failing,
+    fault,
+    left_out,
+    likely,
+    notes,
+    said,
+    subject,
+    verdict,
+    windows,
+)
+from raycert.oracle.reports.text import clean, intervals, number
+
+Json = dict[str, Any]
+SHOWN = 8
+"""How many failing rows are printed; the certificate has them all."""
+STYLES = {
+    "granted": "bold green",
+    "part": "bold",
+    "accepted": "bold yellow",
+    "refused": "bold red",
+    "interrupted": "bold red",
+}
+
+
+def report(certificate: Json, console: Console, out: str | None) -> None:
+    """Print a certificate for people. What a client said is printed as text, never as markup."""
+    console.print(_solids(certificate))
+    console.print(_families(certificate, console.width))
+    for line in _notes(certificate):
+        console.print(Text(line))
+    _failures(certificate, console)
+    console.print(_verdict(certificate))
+    if out:
+        console.print(f"certificate: {out}", highlight=False, soft_wrap=True)
+
+
+def _table(title: str) -> Table:
+    return Table(title=title, title_justify="left", title_style="bold", box=None, pad_edge=False)
+
+
+def _solids(certificate: Json) -> Table:
+    table = _table("Levels: yes and the rows passed, or no and the rows failed")
+    for name in ("solid", *LEVELS, "convention"):
+        table.add_column(name, no_wrap=name != "convention")
+    for name, solid in certificate["solids"].items():
+        cells = [_level(solid["levels"][level]) for level in LEVELS]
+        table.add_row(name, *cells, solid["convention"])
+    return table
+
+
+def _level(tally: Json) -> Text:
+    counted = tally["passed"] + tally["failed"]
+    if tally["granted"]:
+        return Text(f"yes {counted}", "green")
+    if not counted:
+        return Text("no row", "yellow")
+    return Text(f"no {tally['failed']}/{counted}", "red")
+
+
+def _families(certificate: Json, width: int) -> Table:
+    table = _table("\nWorst answers (k: backward error, strict and squared; ulps: forward error)")
+    for name, justify in COLUMNS.items():
+        table.add_column(name, justify=justify, no_wrap=True)
+    names = [family["family"] for family in certificate["families"]]
+    room = max(width - max(map(len, names), default=0) - 46, 0)
+    last = ""
+    for family in certificate["families"]:
+        if family["solid"] != last:
+            last = family["solid"]
+            table.add_row(Text(last, "bold"))
+        worst = family["worst"]
+        table.add_row(
+            "  " + family["family"],
+            str(family["rows"]),
+            *(number(worst[key]) for key in ("strict_k", "squared_k", "ulps")),
+            _fails(family["levels"]),
+            Text(_cut(worst["id"].partition("/")[2], room), "dim"),
+        )
+    return table
+
+
+COLUMNS: dict[str, Literal["left", "right"]] = {
+    "family": "left",
+    "rows": "right",
+    "k": "right",
+    "k sq.": "right",
+    "ulps": "right",
+    "fails": "left",
+    "row": "left",
+}
+
+
+def _cut(text: str, room: int) -> str:
+    return text if len(text) <= room else text[: max(room - 1, 0)] + "\u2026" if room > 8 else ""
+
+
+def _fails(levels: Json) -> Text:
+    for level in LEVELS:
+        if failed := levels[level]["failed"]:
+            return Text(f"{level} {failed}", "red" if level in ("sound", "stable") else "yellow")
+    return Text("-", "green")
+
+
+def _notes(certificate: Json) -> list[str]:
+    told = [f"note: {note}" for note in notes(certificate)]
+    found = [f"likely fault: {line}" for line in likely(certificate)]
+    return ["", *left_out(certificate), *windows(certificate), *told, *found]
+
+
+def _failures(certificate: Json, console: Console) -> None:
+    found = failing(certificate)
+    for failed in found[:SHOWN]:
+        console.print(Text(f"\n{failed['id']}", "bold red"))
+        console.print(Text(f"  {clean(failed['why'])}"))
+        console.print(Text(f"  {certificate['asked']['level']}: {fault(certificate, failed)}"))
+        console.print(Text(f"  answer   {said(failed)}"))
+        console.print(Text(f"  expected {intervals(failed['expected'])}"))
+        repeat = clean(failed["reproduce"], 2000)
+        console.print(Text(f"  repeat   {repeat}"), soft_wrap=True)
+    if len(found) > SHOWN:
+        console.print(f"\nand {len(found) - SHOWN} more rows, all in the certificate")
+
+
+def _verdict(certificate: Json) -> Text:
+    found = verdict(certificate)
+    rows = f": {certificate['tested']} rows of corpus {certificate['corpus']['version']}"
+    reasons = "".join(f"\n  {reason}" for reason in found.reasons)
+    return Text(f"\n{subject(certificate)} {found.headline}{rows}{reasons}", STYLES[found.state])

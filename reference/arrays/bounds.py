@@ -1,0 +1,201 @@
+"""Which tile cannot meet which part: bounds that hold for every ray of the tile, rounding included.
+
+The promise of the tracer is the ground: a t that it answers for a leaf lies in the leaf with its
+faces moved by k u s(t), k at most 64, where s(t) is at most 8 S and S the sum of the sizes at hand
+(origin, box, the leaf's own numbers). So a leaf whose box, grown by 2^-36 S, meets no ray of a
+tile, has an empty answer there: 64 u 8 S = 2^-44 S is a part in 256 of that. The bounds themselves
+are made in doubles, whose errors are some 2^-48 S.
+
+A tile's rays lie in the half-spaces n . (x - point) >= 0 through neighbouring corner rays, and
+before the eye. A box is missed if it lies wholly behind one of these planes.
+
+Caps are not met where the stretch of the ray in the infinite cylinder, t <= T, lies between
+them by as much: then the slab holds all of [0, T], and the intersection is the chord itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import hypot, inf
+
+import numpy as np
+
+from raycert.cases.model import (
+    Cylinder,
+    Difference,
+    HalfSpace,
+    InfiniteCylinder,
+    Intersection,
+    Leaf,
+    Slab,
+    Solid,
+    Sphere,
+    Union,
+    leaves,
+)
+from raycert.cases.scene import Frame, pixel_ray
+from raycert.reference.arrays.rays import Tile
+from raycert.reference.arrays.vectors import Array, Mask
+from raycert.reference.vectors import displacement
+
+DOUBT = 2.0**-36
+"""The part of the sizes by which a bound has to hold."""
+STRETCH = 1 + 2.0**-20
+"""How far beyond the exact root a computed one may lie, at a tangent start: 2^-23 of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """Bounds along the coordinate axes, and the size of the largest leaf's numbers."""
+
+    low: Array
+    high: Array
+    size: float
+
+
+@dataclass(frozen=True, slots=True)
+class Cones:
+    """For each tile: planes that all rays lie before, and the mean and spread of the rays."""
+
+    normal: Array
+    point: Array
+    scale: Array
+    origin: Array
+    spread: Array
+    direction: Array
+    turn: Array
+
+
+def box(solid: Solid) -> Box:
+    """Return bounds of a solid; infinite where there is none along an axis."""
+    match solid:
+        case Union(of):
+            boxes = [box(part) for part in of]
+            low, high = (np.array([getattr(b, x) for b in boxes]) for x in ("low", "high"))
+            return Box(low.min(0), high.max(0), _size(solid))
+        case Intersection(of):
+            boxes = [box(part) for part in of]
+            low, high = (np.array([getattr(b, x) for b in boxes]) for x in ("low", "high"))
+            return Box(low.max(0), high.min(0), _size(solid))
+        case Difference(of):
+            first = box(of[0])
+            return Box(first.low, first.high, _size(solid))
+        case leaf:
+            ends = [_extent(leaf, i) for i in range(3)]
+            return Box(np.array([a for a, _ in ends]), np.array([b for _, b in ends]), _size(leaf))
+
+
+def _size(solid: Solid) -> float:
+    return max(_leaf_size(leaf) for _, leaf in leaves(solid))
+
+
+def _leaf_size(leaf: Leaf) -> float:
+    match leaf:
+        case HalfSpace(point, _):
+            return hypot(*point)
+        case Sphere(center, radius):
+            return hypot(*center) + radius
+        case Slab(p, q):
+            return hypot(*p) + hypot(*q)
+        case InfiniteCylinder(p, q, radius) | Cylinder(p, q, radius):
+            return hypot(*p) + hypot(*q) + radius
+
+
+def _extent(leaf: Leaf, i: int) -> tuple[float, float]:
+    """Return the bounds of a leaf along coordinate axis i."""
+    match leaf:
+        case HalfSpace(point, normal):
+            if any(normal[j] for j in range(3) if j != i):
+                return -inf, inf
+            return (-inf, point[i]) if normal[i] > 0 else (point[i], inf)
+        case Sphere(center, radius):
+            return center[i] - radius, center[i] + radius
+        case Slab(p, q):
+            if any(p[j] != q[j] for j in range(3) if j != i):
+                return -inf, inf
+            return min(p[i], q[i]), max(p[i], q[i])
+        case InfiniteCylinder(p, q, radius):
+            return (p[i] - radius, p[i] + radius) if p[i] == q[i] else (-inf, inf)
+        case Cylinder(p, q, radius):
+            w, _ = displacement(p, q)
+            reach = radius * hypot(*(w[j] for j in range(3) if j != i)) / hypot(*w)
+            return min(p[i], q[i]) - reach, max(p[i], q[i]) + reach
+
+
+def cones(frame: Frame, size: tuple[int, int], tiles: list[Tile]) -> Cones:
+    """Return what the corner rays of each tile bound."""
+    corners = [[pixel_ray(frame, size, *at) for at in tile.corners()] for tile in tiles]
+    o = np.array([[ray.origin for ray in four] for four in corners])
+    v = np.array([[ray.direction for ray in four] for four in corners])
+    forward = np.array(frame.forward)
+    after = [1, 2, 3, 0]
+    if frame.kind == "perspective":
+        normal = np.cross(v, v[:, after])
+        scale = _norm(v) * _norm(v[:, after])
+    else:
+        normal = np.cross(o[:, after] - o, forward)
+        scale = _norm(o) + _norm(o[:, after])
+    inner = v.mean(1) if frame.kind == "perspective" else o.mean(1)
+    toward = inner[:, None] - (0 if frame.kind == "perspective" else o)
+    normal = normal * np.where(np.sum(normal * toward, -1) < 0, -1.0, 1.0)[..., None]
+    ahead = np.broadcast_to(forward, (len(tiles), 1, 3))
+    origin, direction = o.mean(1), v.mean(1)
+    return Cones(
+        np.concatenate((normal, ahead), 1),
+        np.concatenate((o, np.broadcast_to(np.array(frame.eye), ahead.shape)), 1),
+        np.concatenate((scale, np.ones((len(tiles), 1))), 1),
+        origin,
+        _norm(o - origin[:, None]).max(1),
+        direction,
+        _norm(v - direction[:, None]).max(1),
+    )
+
+
+def _norm(a: Array) -> Array:
+    length: Array = np.sqrt(np.sum(a * a, -1))
+    return length
+
+
+def meets(cone: Cones, box: Box) -> Mask:
+    """Tell for each tile whether a ray of it may meet what is in a box."""
+    middle, half = (box.low + box.high) / 2, (box.high - box.low) / 2
+    far = _norm(cone.origin) + cone.spread + float(_norm(middle) + _norm(half)) + box.size
+    far = np.where(np.isnan(far), inf, far)[:, None]
+    height = np.sum(cone.normal * (middle - cone.point), -1)
+    height = height + np.sum(abs(cone.normal) * half, -1)
+    room = DOUBT * far * (cone.scale + (far if cone.spread.any() else 0))
+    missed: Mask = (height < -room).any(1)
+    return ~missed
+
+
+def between_caps(cone: Cones, leaf: Cylinder) -> Mask:
+    """Tell for each tile whether its rays are in the infinite cylinder only between the caps."""
+    axis, _ = displacement(leaf.p, leaf.q)
+    w, p, q = np.array(axis), np.array(leaf.p), np.array(leaf.q)
+    length, speed = _norm(w), _norm(cone.direction) + cone.turn
+    across = _norm(np.cross(cone.direction, w)) - cone.turn * length - DOUBT * speed * length
+    away = _norm(np.cross(cone.origin - p, w)) + cone.spread * length + leaf.radius * length
+    last = np.where(across > 0, away / np.where(across > 0, across, 1.0) * STRETCH, inf)
+    slope, steep = cone.direction @ w, cone.turn * length
+    low = (cone.origin - p) @ w - cone.spread * length + last * np.minimum(slope - steep, 0.0)
+    high = (cone.origin - q) @ w + cone.spread * length + last * np.maximum(slope + steep, 0.0)
+    sizes = _norm(cone.origin) + cone.spread + _leaf_size(leaf) + last * speed
+    doubt = DOUBT * sizes * length
+    found: Mask = (low > doubt) & (high < -doubt)
+    return found
+
+
+def between_table(cone: Cones, solids: list[Solid]) -> Mask:
+    """Return a row for each tile, a column for each node: cylinders met between the caps only."""
+    columns = [
+        between_caps(cone, solid)
+        if isinstance(solid, Cylinder)
+        else np.zeros(len(cone.origin), bool)
+        for solid in solids
+    ]
+    return np.stack(columns, 1)
+
+
+def seen_table(cone: Cones, solids: list[Solid]) -> Mask:
+    """Return a row for each tile, a column for each node: what the tile's rays may meet."""
+    return np.stack([meets(cone, box(solid)) for solid in solids], 1)

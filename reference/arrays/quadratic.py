@@ -1,0 +1,151 @@
+"""Problem 1 in many lanes: where |y + t v| <= r, as `raycert.reference.quadratic` does it in one.
+
+What misses leaves first: the roots are taken only in the lanes that hit. `Line` has what the
+direction alone gives, `Start` what the start alone gives, so either can be shared.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from raycert.reference.arrays.lists import Lists
+from raycert.reference.arrays.norms import norm, rough
+from raycert.reference.arrays.vectors import Array, Mask, Vectors, Whole, cross, dot, take, take_all
+
+BEYOND = 1 + 2.0**-40
+"""By how much a miss must be a miss in rough numbers, whose error is some 2^-49."""
+ROUGHEST, FINEST = 2.0**200, 2.0**-200
+"""Outside of these the squares of rough numbers might not be normal numbers."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A direction across an axis, or the direction itself for a sphere."""
+
+    v: Vectors
+
+    @cached_property
+    def vv(self) -> Array:
+        """Return v . v."""
+        return dot(self.v, self.v)
+
+    @cached_property
+    def length(self) -> Array:
+        """Return |v|."""
+        return norm(self.v)
+
+    @cached_property
+    def rough(self) -> Array:
+        """Return |v| nearly."""
+        return rough(self.v)
+
+
+@dataclass(frozen=True)
+class Start:
+    """A start relative to an axis or a center, and the radius in the same unit."""
+
+    y: Vectors
+    r: Array
+
+    @cached_property
+    def length(self) -> Array:
+        """Return |y|."""
+        return norm(self.y)
+
+    def taken(self, lanes: Whole) -> Start:
+        """Return the start in some lanes; a length that all share is not made again."""
+        shared = all(c is None or c.size == 1 for c in self.y)
+        return (
+            self
+            if shared and self.r.size == 1
+            else Start(take_all(self.y, lanes), take(self.r, lanes))
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class How:
+    """Which shortcuts are taken: `misses` by rough numbers first, `first` no leave."""
+
+    misses: bool = True
+    first: bool = False
+
+
+def chord(start: Start, line: Line, how: How, lanes: int) -> Lists:
+    """Return the interval of t >= 0 for which |y + t v| <= r: the table of Problem 1 (m).
+
+    With `how.first` the leaves are NaN: only their signs are made, where the row needs them.
+    """
+    found = _near(start, line, lanes) if how.misses else np.arange(lanes)
+    v = take_all(line.v, found)
+    some = start.taken(found)
+    vv, length = take(line.vv, found), take(line.length, found)
+    reach, offset = some.r * length, norm(cross(v, some.y))
+    along = np.broadcast_to(vv == 0, found.shape)
+    hit = np.broadcast_to(reach >= offset, found.shape) & ~along
+    across = np.flatnonzero(hit)
+    lane, enter, leave = _through(
+        found[across],
+        some.taken(across),
+        take_all(v, across),
+        take(vv, across),
+        (take(reach, across), take(offset, across)),
+        how.first,
+    )
+    crossing = Lists(lane, enter, leave, lanes)
+    if not along.any():
+        return crossing
+    inside = found[along & np.broadcast_to(some.length <= some.r, found.shape)]
+    whole = Lists(inside, np.zeros(inside.size), np.full(inside.size, np.inf), lanes)
+    return _woven(crossing, whole)
+
+
+def _near(start: Start, line: Line, lanes: int) -> Whole:
+    """Return the lanes that do not miss by much."""
+    reach, offset = start.r * line.rough, rough(cross(line.v, start.y))
+    away = (offset > reach * BEYOND) & (offset > FINEST) & (offset < ROUGHEST)
+    return np.flatnonzero(np.broadcast_to(~away, lanes))
+
+
+def _through(
+    lane: Whole, start: Start, v: Vectors, vv: Array, sizes: tuple[Array, Array], first: bool
+) -> tuple[Whole, Array, Array]:
+    """Return the rows behind, from-inside and through, for lanes that meet the circle."""
+    reach, offset = sizes
+    half = np.sqrt((reach - offset) * (reach + offset))
+    c = (start.length - start.r) * (start.length + start.r)
+    b = dot(v, start.y)
+    t1, t2 = roots(vv, b, c, half, first)
+    t1, t2 = np.broadcast_to(t1, lane.shape), np.broadcast_to(t2, lane.shape)
+    keep: Mask = ~(t2 < 0)
+    enter = t1[keep]
+    leave = np.full(enter.size, np.nan) if first else t2[keep]
+    return lane[keep], np.where(enter < 0, 0.0, enter), leave
+
+
+def roots(a: Array, b: Array, c: Array, half: Array, first: bool = False) -> tuple[Array, Array]:
+    """Return t1 <= t2, the roots of Problem 1 (f), as `raycert.reference.quadratic.roots` does.
+
+    With `first`, t2 only has the right sign.
+    """
+    ahead = b > 0
+    stable = 2 * half > abs(b)
+    k = np.where(ahead, -b - half, -b + half)
+    near, ratio = k / a, c / k
+    enter = np.where(stable, np.where(ratio < near, ratio, near), (-b - half) / a)
+    if first:
+        sign = np.where(stable, ratio, -1.0)
+        return np.where(ahead, near, enter), np.where(ahead, sign, 1.0)
+    leave = np.where(stable, np.where(ratio > near, ratio, near), (-b + half) / a)
+    return np.where(ahead, near, enter), np.where(ahead, leave, near)
+
+
+def _woven(one: Lists, two: Lists) -> Lists:
+    """Return the pairs of two lists that share no lane, in the order of the lanes."""
+    if not two.lane.size:
+        return one
+    order = np.argsort(np.concatenate((one.lane, two.lane)))
+    lane, enter, leave = (np.concatenate((one[i], two[i]))[order] for i in range(3))
+    return Lists(lane, enter, leave, one.lanes)

@@ -1,0 +1,126 @@
+"""Vectors of many lanes: three components, each an array, of one length or of length 1.
+
+An array of length 1 holds for every lane, so that what lanes share is computed once, by
+broadcasting. A component may be None: zero in every lane, by construction. What is multiplied by
+it is left out. That changes at most the sign of a zero, which no comparison sees.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from raycert.cases.model import Vector
+from raycert.reference.vectors import NOTHING
+
+Array = npt.NDArray[np.float64]
+Whole = npt.NDArray[np.int64]
+Mask = npt.NDArray[np.bool_]
+Component = Array | None
+Vectors = tuple[Component, Component, Component]
+
+ZERO = np.zeros(1)
+
+
+def constant(a: Vector, drop: bool) -> Vectors:
+    """Return a vector that all lanes share; `drop` makes its zeros None."""
+    x, y, z = (None if drop and c == 0 else np.array([c]) for c in a)
+    return x, y, z
+
+
+def present(a: Vectors) -> list[Array]:
+    """Return the components that are not None."""
+    return [c for c in a if c is not None]
+
+
+def take(a: Array, lanes: Whole) -> Array:
+    """Return the lanes of an array; one that holds for every lane stays."""
+    return a if a.size == 1 else a[lanes]
+
+
+def take_all(a: Vectors, lanes: Whole) -> Vectors:
+    """Return the lanes of a vector."""
+    x, y, z = (None if c is None else take(c, lanes) for c in a)
+    return x, y, z
+
+
+def dot(a: Vectors, b: Vectors) -> Array:
+    """Return a . b."""
+    total: Component = None
+    for x, y in zip(a, b, strict=True):
+        total = _plus(total, _times(x, y))
+    return ZERO if total is None else total
+
+
+def cross(a: Vectors, b: Vectors) -> Vectors:
+    """Return a x b."""
+    return (
+        _minus(_times(a[1], b[2]), _times(a[2], b[1])),
+        _minus(_times(a[2], b[0]), _times(a[0], b[2])),
+        _minus(_times(a[0], b[1]), _times(a[1], b[0])),
+    )
+
+
+def largest(a: Vectors) -> Array:
+    """Return the largest magnitude of a component."""
+    size: Component = None
+    for c in present(a):
+        size = abs(c) if size is None else np.maximum(size, abs(c))
+    return ZERO if size is None else size
+
+
+def exponent(size: Array) -> Whole:
+    """Return the e for which a magnitude is in [1/2, 1) 2^e; `NOTHING` for zero."""
+    e = np.frexp(size)[1].astype(np.int64)
+    return np.where(size == 0, NOTHING, e)
+
+
+def shift(a: Vectors, e: Whole) -> Vectors:
+    """Return a 2^e."""
+    x, y, z = (None if c is None else np.ldexp(c, e) for c in a)
+    return x, y, z
+
+
+def scaled(a: Vectors) -> tuple[Vectors, Whole]:
+    """Return (m, e) with a = m 2^e and the largest component of m in [1/2, 1)."""
+    e = exponent(largest(a))
+    return shift(a, -e), e
+
+
+def difference(start: Vector, end: Vectors, drop: bool) -> Vectors:
+    """Return end - start; with `drop`, None for what is zero in a lane that all share."""
+    parts = [_values(e) - s for s, e in zip(start, end, strict=True)]
+    x, y, z = (None if drop and c.size == 1 and not c.any() else c for c in parts)
+    return x, y, z
+
+
+def displacement(start: Vector, end: Vectors, drop: bool) -> tuple[Vectors, Whole]:
+    """Return end - start, scaled. A lane that overflows is taken again between the halves."""
+    parts = difference(start, end, drop)
+    over = np.isinf(largest(parts))
+    if not over.any():
+        return scaled(parts)
+    halves = [np.ldexp(_values(e), -1) - np.ldexp(s, -1) for s, e in zip(start, end, strict=True)]
+    x, y, z = (np.where(over, h, _values(c)) for h, c in zip(halves, parts, strict=True))
+    mantissas, e = scaled((x, y, z))
+    return mantissas, e + over
+
+
+def _values(c: Component) -> Array:
+    return ZERO if c is None else c
+
+
+def _times(x: Component, y: Component) -> Component:
+    return None if x is None or y is None else x * y
+
+
+def _plus(x: Component, y: Component) -> Component:
+    if x is None or y is None:
+        return x if y is None else y
+    return x + y
+
+
+def _minus(x: Component, y: Component) -> Component:
+    if x is None or y is None:
+        return x if y is None else -y
+    return x - y

@@ -1,0 +1,164 @@
+"""The error bounds hold against exact arithmetic, and are not so wide that they could not fail."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import isqrt
+
+import numpy as np
+import pytest
+from batch_rays import aligned, beside_ties, far, free, grazing, tilted, wrong
+
+from raycert.cases.model import InfiniteCylinder, Slab, Sphere
+from raycert.oracle.batch import decide, formulas
+from raycert.oracle.batch.bounds import UU, U
+from raycert.oracle.batch.formulas import (
+    ball,
+    divisor,
+    gap_ball,
+    gap_wall,
+    plane,
+    plane_plain,
+    wall,
+)
+from raycert.oracle.batch.lanes import Lanes
+from raycert.oracle.batch.plan import Plan, plan
+from raycert.oracle.batch.vector import ALL, axis, heads, offset, speed
+from raycert.oracle.batch.vector import tilted as has_axis
+
+Vector = tuple[Fraction, Fraction, Fraction]
+
+
+def exact(x) -> Fraction:
+    """Return a double, or a pair, as a fraction."""
+    return Fraction(float(x[0])) + Fraction(float(x[1])) if isinstance(x, tuple) else Fraction(x)
+
+
+def dot(a: Vector, b: Vector) -> Fraction:
+    return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def lane(arrays, i: int) -> Vector:
+    """Return a vector of arrays, or of pairs of them, at lane i."""
+    parts = [exact((a[0][i], a[1][i])) if isinstance(a, tuple) else exact(a[i]) for a in arrays]
+    return (parts[0], parts[1], parts[2])
+
+
+def truths(leaf: Plan, lanes: Lanes, i: int) -> tuple[Fraction, Fraction, Fraction, Fraction]:
+    """Return A, B, C and G of a lane exactly."""
+    y, v = lane(offset(lanes, leaf.first, leaf.keep), i), lane(speed(lanes, leaf.keep), i)
+    a, g, r2 = v, y, Fraction(leaf.radius) ** 2
+    gap = r2 * dot(v, v) - dot(cross(y, v), cross(y, v))
+    if has_axis(leaf):
+        w = tuple(map(exact, leaf.w))
+        a, g = cross(v, w), cross(y, w)
+        gap = r2 * dot(a, a) - dot(y, a) ** 2
+        r2 *= dot(w, w)
+    return dot(a, a), dot(a, g), dot(g, g) - r2, gap
+
+
+def curved_shares(leaf: Plan, lanes: Lanes) -> list[list[float]]:
+    """Return the error in units of its bound: of A, B, C, G in pairs, and of G in doubles."""
+    y, v = offset(lanes, leaf.first, leaf.keep), speed(lanes, leaf.keep)
+    plain = heads(lanes, leaf.first, leaf.keep)
+    if has_axis(leaf):
+        terms = wall(y, v, leaf.w, leaf.size, leaf.rr, leaf.cap)
+        _, _, gap, bound = gap_wall(plain, v, axis(leaf), leaf.size, leaf.rr[0])
+    else:
+        terms = ball(y, v, leaf.rr)
+        gap, bound = gap_ball(plain, v, leaf.rr[0])
+    shares = []
+    for i in range(len(gap)):
+        truth = truths(leaf, lanes, i)
+        found = [(exact((x[0][i], x[1][i])), exact(e[i])) for x, e in terms]
+        found.append((exact(gap[i]), exact(bound[i])))
+        both = zip(found, (*truth, truth[3]), strict=True)
+        shares.append([float(abs(x - t) / e) if e else float(x != t) for (x, e), t in both])
+    return shares
+
+
+@pytest.mark.parametrize("family", [free, far, tilted, grazing, aligned])
+def test_the_forms_of_curved_faces_are_within_their_bounds(family) -> None:
+    dice = np.random.default_rng(7)
+    shares = []
+    for _ in range(2):
+        leaves, u, v = family(dice, 60)
+        for leaf in leaves:
+            if isinstance(leaf, Sphere | InfiniteCylinder):
+                prepared = plan(leaf)
+                lanes = Lanes.of(prepared, np.concatenate([u.T, v.T]))
+                assert lanes.held.all()
+                shares += curved_shares(prepared, lanes)
+    worst = np.max(shares, axis=0)
+    assert (worst <= 1).all(), worst
+    if family is free:
+        assert (worst > 2.0**-14).all(), "a bound so wide would be no bound"
+
+
+@pytest.mark.parametrize("family", [free, far, aligned])
+def test_the_forms_of_planes_are_within_their_bounds(family) -> None:
+    leaves, u, v = family(np.random.default_rng(8), 100)
+    leaf = plan(next(leaf for leaf in leaves if isinstance(leaf, Slab)))
+    lanes = Lanes.of(leaf, np.concatenate([u.T, v.T]))
+    y, w = offset(lanes, leaf.second, ALL), tuple(map(exact, leaf.w))
+    pairs = plane(y, lanes.v, leaf.w, leaf.size)
+    c, ec, b, eb = plane_plain(heads(lanes, leaf.second, ALL), lanes.v, axis(leaf), leaf.size)
+    for i in range(len(c)):
+        truth = dot(lane(y, i), w), dot(lane(lanes.v, i), w)
+        for (x, e), (s, es), t in zip(pairs, ((c, ec), (b, eb)), truth, strict=True):
+            assert abs(exact((x[0][i], x[1][i])) - t) <= exact(e[i])
+            assert abs(exact(s[i]) - t) <= exact(es[i])
+
+
+def test_the_root_of_the_discriminant_is_within_its_bound() -> None:
+    leaves, u, v = free(np.random.default_rng(9), 100)
+    leaf = plan(leaves[3])
+    lanes = Lanes.of(leaf, np.concatenate([u.T, v.T]))
+    y = offset(lanes, leaf.first, leaf.keep)
+    gap = wall(y, speed(lanes, leaf.keep), leaf.w, leaf.size, leaf.rr, leaf.cap)[3]
+    with np.errstate(all="ignore"):
+        root, bound = divisor(gap, leaf.root_w)
+    w = tuple(map(exact, leaf.w))
+    sure = np.nonzero(gap[0][0] > gap[1])[0]
+    assert len(sure) > 10
+    for i in sure:
+        d = truths(leaf, lanes, i)[3] * dot(w, w)
+        truth = Fraction(isqrt(int(d * 2**600)), 2**300)
+        assert abs(exact((root[0][i], root[1][i])) - truth) <= exact(bound[i]) + Fraction(1, 2**290)
+
+
+def faults_beside_ties(flat: bool) -> int:
+    dice = np.random.default_rng(4)
+    return sum(len(wrong(*beside_ties(dice, flat))[0]) for _ in range(300))
+
+
+@pytest.mark.parametrize("flat", [False, True])
+def test_lower_bounds_in_double_double_are_found_out(flat, monkeypatch) -> None:
+    assert faults_beside_ties(flat) == 0
+    monkeypatch.setattr(formulas, "UU", UU * 2.0**-20)
+    assert faults_beside_ties(flat) > 0
+
+
+def faults_of_grazing() -> int:
+    """Count wrong lanes of rays that miss or touch a face by a rounding of its radius."""
+    dice, faults = np.random.default_rng(6), 0
+    for _ in range(60):
+        p, q, u, v = dice.uniform(-4, 4, (4, 3))
+        n = np.cross(v, q - p)
+        axial = float(abs(np.dot(u - p, n)) / np.linalg.norm(n))
+        central = float(np.linalg.norm(np.cross(u - p, v)) / np.linalg.norm(v))
+        a, b = tuple(p.tolist()), tuple(q.tolist())
+        for solid in (InfiniteCylinder(a, b, axial), Sphere(a, central)):
+            faults += len(wrong(solid, u[None], v[None])[0])
+    return faults
+
+
+def test_lower_bounds_in_float64_are_found_out(monkeypatch) -> None:
+    assert faults_of_grazing() == 0
+    for module in (formulas, decide):
+        monkeypatch.setattr(module, "U", U * 2.0**-20)
+    assert faults_of_grazing() > 0

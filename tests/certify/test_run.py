@@ -1,0 +1,220 @@
+"""The pipeline: what it asks, what it keeps when it is cut short, what it refuses to begin."""
+
+import os
+import shutil
+import signal
+import sys
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from raycert import oracle
+from raycert.cases.corpus import GOLDEN, MANIFEST, manifest, read_corpus
+from raycert.oracle.certify.expectations import Expectation, Expectations
+from raycert.oracle.certify.run import (
+    BLOCK,
+    NotInCorpus,
+    Plan,
+    Unsuitable,
+    Watch,
+    certify,
+    conduct,
+    prepare,
+)
+from raycert.oracle.certify.selection import Selection, Shard
+from raycert.oracle.certify.verdict import by_family
+from raycert.oracle.client.harness import Limits, Unusable
+from raycert.oracle.corpus.fresh import Fresh
+
+HERE = Path(str(oracle.__file__)).parent.parent
+GOOD = (sys.executable, "-m", "raycert.reference")
+READ = cache(read_corpus)
+"""Every test reads the same corpus."""
+FEW = Selection(families=("rim", "far-deep"))
+
+
+@pytest.fixture(autouse=True)
+def importable(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(HERE))
+    monkeypatch.setattr("raycert.oracle.certify.run.read_corpus", READ)
+
+
+def planted(folder: Path, tracer: str, hello: str = "'planted'") -> tuple[str, ...]:
+    """Write a program that serves an expression: one of the zoo's tracers, or a function."""
+    script = folder / "client.py"
+    script.write_text(
+        "from oracle.zoo.catalog import BY_NAME\n"
+        "from cases.protocol import Hello\n"
+        "from cases.serve import serve\n"
+        f"serve({tracer}, Hello({hello}))\n"
+    )
+    return (sys.executable, str(script))
+
+
+def test_a_good_target_is_granted() -> None:
+    result = certify(Plan(GOOD, level="stable", selection=FEW))
+    assert result.verdict.granted
+    assert {group.name for group in by_family(result.grades)} == {"rim", "far-deep"}
+    assert not result.ran.interrupted
+    form = result.form(("reference",))
+    assert form["passed"]
+    assert not form["granted"], "a part is no certificate"
+    assert form["reproduce"].endswith("--family rim --family far-deep reference")
+
+
+def test_shards_part_the_run_and_none_is_a_certificate() -> None:
+    whole = prepare(Plan(GOOD, selection=FEW))
+    parts = [
+        prepare(Plan(GOOD, selection=replace(FEW, shard=Shard(number, 3)))) for number in (1, 2, 3)
+    ]
+    ids = [row.id for part in parts for row in part.rows]
+    assert sorted(ids) == sorted(row.id for row in whole.rows)
+    alone = Plan(GOOD, selection=Selection(solids=("slab",), shard=Shard(1, 40)))
+    form = certify(alone).form(("reference",))
+    assert form["passed"]
+    assert not form["granted"]
+    assert "--shard 1/40" in form["reproduce"]
+
+
+def test_fresh_rows_are_asked_beside_the_golden_ones() -> None:
+    plan = Plan(GOOD, level="stable", selection=Selection(families=("rim", "fresh-5")))
+    result = certify(replace(plan, fresh=Fresh(5, 30)))
+    assert sum(g.row.family == "fresh-5" for g in result.grades) == 30
+    assert result.verdict.granted
+    form = result.form(("reference",))
+    assert form["fresh"] == {"seed": 5, "rows": 30}
+    assert "--seed 5 --fresh 30" in form["reproduce"]
+    assert not form["granted"]
+
+
+def test_only_keeps_some_families() -> None:
+    whole = prepare(Plan(GOOD, selection=FEW))
+    part = whole.only(("rim",))
+    assert {row.family for row in part.rows} == {"rim"}
+    assert len(part.rows) + part.left.rows == len(whole.rows) + whole.left.rows
+    assert part.known == whole.known
+
+
+def test_fail_fast_ends_soon_and_says_so(tmp_path: Path) -> None:
+    command = planted(tmp_path, "BY_NAME['no-clip'].make()")
+    plan = Plan(command, selection=Selection(solids=("cylinder",)), fail_fast=True)
+    result = certify(plan)
+    assert len(result.grades) == BLOCK
+    assert result.ran.interrupted
+    assert any("the first row that fails" in note for note in result.ran.notes)
+    form = result.form(command)
+    assert not form["granted"]
+    assert not form["passed"]
+
+
+def test_fail_fast_asks_everything_of_a_good_target() -> None:
+    selection = Selection(families=("rim", "far-deep", "behind", "start-inside"))
+    plan = Plan(GOOD, level="stable", selection=selection, fail_fast=True)
+    result = certify(plan)
+    assert result.verdict.granted
+    assert not result.ran.interrupted
+    assert len(result.grades) == len(prepare(plan).rows) > BLOCK
+
+
+def test_an_interruption_keeps_what_is_known() -> None:
+    """The signal comes once some rows are judged."""
+
+    @contextmanager
+    def counting(verb: str, _: int) -> Any:
+        done = 0
+
+        def advance(n: int = 1) -> None:
+            nonlocal done
+            done += n
+            if verb == "judging" and done == 20:
+                os.kill(os.getpid(), signal.SIGINT)
+
+        yield advance
+
+    result = conduct(prepare(Plan(GOOD, level="stable", selection=FEW)), Watch(counting))
+    assert result.ran.interrupted
+    assert 15 < len(result.grades) < 40
+    assert not result.form(("reference",))["passed"]
+
+
+def test_an_interruption_while_asking_keeps_what_is_known() -> None:
+    @contextmanager
+    def counting(verb: str, _: int) -> Any:
+        def advance(n: int = 1) -> None:
+            if verb == "asking" and n:
+                raise KeyboardInterrupt
+
+        yield advance
+
+    result = conduct(prepare(Plan(GOOD, selection=FEW)), Watch(counting))
+    assert result.ran.interrupted
+    assert len(result.grades) < len(result.prepared.rows)
+
+
+def test_what_the_adapter_does_wrong_is_noted_at_once(tmp_path: Path) -> None:
+    said: list[str] = []
+    swap = "lambda solid, ray: [(b, a) for a, b in BY_NAME['swapped'].make()(solid, ray)][:0]"
+    plan = Plan(planted(tmp_path, swap), selection=Selection(families=("rim",)))
+    result = certify(plan, Watch(note=said.append))
+    assert any("a miss" in line for line in said)
+    assert set(said) <= set(result.ran.notes)
+
+
+def test_the_likely_fault_is_named(tmp_path: Path) -> None:
+    plan = Plan(
+        planted(tmp_path, "BY_NAME['no-clip'].make()"),
+        selection=Selection(families=("behind", "rim", "start-inside")),
+    )
+    result = certify(plan)
+    assert any("no-clip" in text for text in result.ran.diagnosis)
+
+
+def test_expected_failures_are_accepted_and_no_others(tmp_path: Path) -> None:
+    """The roundtrip a person makes: record, accept, repair, be told."""
+    selection = Selection(families=("rim", "behind"))
+    bad = certify(Plan(planted(tmp_path, "BY_NAME['no-clip'].make()"), selection=selection))
+    assert not bad.verdict.granted
+    recorded = bad.recorded()
+    assert bad.matched(recorded).accepted
+    assert not bad.matched(Expectations()).accepted
+    good = certify(Plan(GOOD, selection=selection))
+    assert len(good.matched(recorded).unexpected_passes) == len(recorded.entries)
+    outside = Expectations((Expectation("family", "needle", "why"),))
+    assert good.matched(outside).accepted, "outside the selection is not unmatched"
+
+
+def test_what_cannot_be_begun_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(Unusable):
+        certify(Plan(("no-such-program-anywhere",)))
+    with pytest.raises(NotInCorpus, match="no-such-family"):
+        certify(Plan(GOOD, selection=Selection(families=("no-such-family",))))
+    trees = planted(tmp_path, "None", "'trees', solids=('union',)")
+    with pytest.raises(Unsuitable, match="declares union"):
+        certify(Plan(trees))
+
+
+def test_not_one_easy_case_answered_is_nothing_tested(tmp_path: Path) -> None:
+    mute = planted(tmp_path, "lambda solid, ray: __import__('os')._exit(3)")
+    with pytest.raises(Unsuitable, match="none of the easy cases"):
+        certify(Plan(mute, limits=Limits(case=2.0)))
+
+
+def test_an_empty_corpus_is_blamed_on_the_corpus(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("raycert.oracle.certify.run.read_corpus", read_corpus)
+    (tmp_path / MANIFEST).write_bytes(manifest({}))
+    with pytest.raises(Unsuitable, match="no rows in binary64"):
+        prepare(Plan(GOOD, golden=tmp_path))
+
+
+def test_another_corpus_is_named_in_the_command_that_repeats(tmp_path: Path) -> None:
+    shutil.copytree(GOLDEN, tmp_path / "golden")
+    result = certify(Plan(GOOD, golden=tmp_path / "golden", selection=Selection(families=("rim",))))
+    assert (
+        f"--golden {tmp_path / 'golden'} --family rim" in result.form(("reference",))["reproduce"]
+    )

@@ -1,0 +1,150 @@
+"""A real Dask cluster of two workers, one of which is killed in the middle of its work.
+
+Nothing is lost, nothing is counted twice, and the hunt finds what it finds here.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from raycert.oracle.client.inprocess import InProcess
+from raycert.oracle.hunt.executors import Here, Lost
+from raycert.oracle.hunt.ledger import Ledger
+from raycert.oracle.hunt.search import Budget, hunt
+from raycert.oracle.hunt.served import spec
+from raycert.oracle.hunt.unit import Done, Job, Unit, Worst, work
+
+pytest.importorskip("distributed", reason='needs pip install "raycert[cluster]"')
+pytestmark = pytest.mark.filterwarnings("default")  # those of Dask are its own
+
+ROOT = Path(__file__).parents[2]
+START = {
+    "scheduler": (
+        "import asyncio, sys\n"
+        "from distributed import Scheduler\n"
+        "async def main():\n"
+        "    s = await Scheduler(host='127.0.0.1', port=0, dashboard=False)\n"
+        "    print(s.address, flush=True)\n"
+        "    await s.finished()\n"
+        "asyncio.run(main())\n"
+    ),
+    "worker": (
+        "import asyncio, sys\n"
+        "from distributed import Worker\n"
+        "async def main():\n"
+        "    w = await Worker(sys.argv[1], nthreads=1, dashboard=False)\n"
+        "    print(w.address, flush=True)\n"
+        "    await w.finished()\n"
+        "asyncio.run(main())\n"
+    ),
+}
+
+
+def started(kind: str, *words: str) -> tuple[subprocess.Popen[str], str]:
+    """Start a process of the cluster; return it and its address."""
+    paths = os.pathsep.join((str(ROOT), str(Path(__file__).parents[1])))
+    process = subprocess.Popen(
+        [sys.executable, "-c", START[kind], *words],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+        text=True,
+        env=os.environ | {"PYTHONPATH": paths},
+        cwd=ROOT,
+    )
+    assert process.stdout
+    return process, process.stdout.readline().strip()
+
+
+@pytest.fixture
+def cluster() -> Iterator[tuple[str, list[subprocess.Popen[str]]]]:
+    """Yield the address of a scheduler, and its two workers."""
+    scheduler, address = started("scheduler")
+    workers = [started("worker", address)[0] for _ in range(2)]
+    yield address, workers
+    for process in (*workers, scheduler):
+        process.kill()
+        process.wait()
+        process.stdout.close()
+
+
+def slow(folder: str, unit: Unit) -> Done:
+    """Take a while, and leave a mark each time the unit is begun."""
+    with open(Path(folder) / f"{unit.number}", "a") as file:
+        file.write(f"{os.getpid()}\n")
+    time.sleep(0.4)
+    return Done(unit.number, unit.cases, Worst(), ())
+
+
+def test_a_worker_that_dies_loses_nothing_and_nothing_counts_twice(cluster, tmp_path):
+    from raycert.oracle.hunt.cluster import Cluster
+
+    address, workers = cluster
+    executor, ledger = Cluster(partial(slow, str(tmp_path)), address), Ledger()
+    units, killed = [Unit(number, 10 + number) for number in range(12)], False
+    assert executor.places == 2
+    for unit in units:
+        executor.submit(unit)
+    while len(ledger.results) < len(units):
+        for result in executor.finished(10.0):
+            assert ledger.add(result)
+        if ledger.results and not killed:
+            time.sleep(0.2)  # both workers are in the middle of a unit
+            workers[0].send_signal(signal.SIGKILL)
+            killed = True
+    executor.close()
+    assert killed
+    begun = {unit.number: (tmp_path / f"{unit.number}").read_text().split() for unit in units}
+    assert any(len(pids) > 1 for pids in begun.values()), "no unit was begun again"
+    assert sorted(ledger.results) == list(range(12))
+    assert ledger.tried == sum(unit.cases for unit in units)
+
+
+def test_a_hunt_on_a_cluster_that_loses_a_worker_finds_what_it_finds_here(cluster):
+    from raycert.oracle.hunt.cluster import Cluster
+
+    address, workers = cluster
+    job = Job(InProcess("callable", spec("padded-radius")), golden=None)
+    budget = Budget(cases=180, unit=60, most=2)
+    alone = hunt(job, budget, Here(partial(work, job)))
+
+    class Unlucky(Cluster):
+        def finished(self, seconds):
+            workers[1].send_signal(signal.SIGKILL)
+            return super().finished(seconds)
+
+    shared = hunt(job, budget, Unlucky(partial(work, job), address))
+    assert alone.findings
+    assert list(shared.findings) == list(alone.findings)
+    for cause, finding in shared.findings.items():
+        assert finding.scene == alone.findings[cause].scene
+
+
+def test_a_cluster_that_is_not_there_is_said(monkeypatch):
+    from raycert.oracle.hunt import cluster
+
+    monkeypatch.setattr(cluster, "CONNECT", 0.5)
+    with pytest.raises(Lost, match=r"127\.0\.0\.1:9"):
+        cluster.Cluster(partial(slow, "."), "tcp://127.0.0.1:9")
+
+
+def wrong(unit: Unit) -> Done:
+    raise ValueError("a fault of ours")
+
+
+def test_a_fault_of_the_work_is_raised(cluster):
+    from raycert.oracle.hunt.cluster import Cluster
+
+    executor = Cluster(wrong, cluster[0])
+    executor.submit(Unit(0))
+    with pytest.raises(ValueError, match="ours"):
+        executor.finished(60.0)
+    executor.close()

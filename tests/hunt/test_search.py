@@ -1,0 +1,110 @@
+"""A whole hunt: the same seed finds the same, whoever does the units; Ctrl-C keeps findings."""
+
+from functools import partial
+
+import pytest
+
+from raycert.cases.numbers import numbers
+from raycert.oracle.client.dialogue import Unusable
+from raycert.oracle.client.inprocess import InProcess
+from raycert.oracle.hunt.cause import UNREPEATED
+from raycert.oracle.hunt.executors import Here, Lost, Processes
+from raycert.oracle.hunt.search import Budget, hunt
+from raycert.oracle.hunt.served import spec
+from raycert.oracle.hunt.unit import Job, work
+
+SMALL = Budget(cases=360, unit=120, most=3)
+
+
+def job(name, **options):
+    return Job(InProcess("callable", spec(name)), golden=None, **options)
+
+
+def here(name, budget=SMALL, **options):
+    asked = job(name, **options)
+    return hunt(asked, budget, Here(partial(work, asked)))
+
+
+def found(result):
+    return [(f.cause, f.scene, f.fault, f.first, f.before) for f in result.findings.values()]
+
+
+def test_the_same_seed_finds_the_same_here_and_in_processes():
+    one, asked = here("tolerant-disc"), job("tolerant-disc")
+    two = hunt(asked, SMALL, Processes(partial(work, asked), 2))
+    assert found(one)
+    assert found(one) == found(two)
+
+
+def test_causes_are_told_apart_and_simple():
+    result = here("always-empty")
+    causes = list(result.findings)
+    assert len(causes) == len(set(causes)) >= 2
+    assert any(all(x in (-1, 0, 1) for x in numbers(f.scene)) for f in result.findings.values())
+
+
+class Impatient(Here):
+    """Does one unit; then the person interrupts."""
+
+    def finished(self, seconds):
+        if getattr(self, "did", False):
+            raise KeyboardInterrupt
+        self.did = True
+        return super().finished(seconds)
+
+
+class Failing(Here):
+    """Does one unit; then the cluster is gone."""
+
+    def finished(self, seconds):
+        if getattr(self, "did", False):
+            raise Lost("no worker is left")
+        self.did = True
+        return super().finished(seconds)
+
+
+@pytest.mark.parametrize(
+    ("kind", "ended"), [(Impatient, "interrupted"), (Failing, "no worker is left")]
+)
+def test_what_ends_a_hunt_keeps_what_was_found(kind, ended):
+    asked = job("no-clip")
+    result = hunt(asked, Budget(cases=10_000, unit=160), kind(partial(work, asked)))
+    assert result.ended == ended
+    assert result.findings
+    assert result.tried == 160
+
+
+def test_a_loss_before_anything_was_found_is_raised():
+    asked = Job(InProcess("callable", "raycert.reference.tracer:intersect"))
+    with pytest.raises(Lost):
+        hunt(asked, Budget(cases=10_000, unit=40), Failing(partial(work, asked)))
+
+
+def test_an_answer_that_depends_on_the_one_before_is_kept_with_it():
+    result = here("late", Budget(cases=160, unit=160, most=2))
+    assert any(f.repeats for f in result.findings.values())
+    result = here("echo", Budget(cases=160, unit=160, most=1))
+    [finding] = result.findings.values()
+    assert finding.before
+    assert finding.repeats
+
+
+def test_what_does_not_come_again_is_said_and_no_row():
+    result = here("hundredth", Budget(cases=320, unit=320, most=3))
+    [finding] = result.findings.values()
+    assert finding.cause.kind == UNREPEATED
+    assert not finding.repeats
+
+
+def test_a_target_that_cannot_be_run_is_said():
+    asked = Job(InProcess("callable", "no_such:thing"))
+    with pytest.raises(Unusable):
+        hunt(asked, SMALL, Here(partial(work, asked)))
+
+
+def test_time_ends_a_hunt():
+    asked = Job(InProcess("callable", "raycert.reference.tracer:intersect"))
+    result = hunt(asked, Budget(seconds=2.0), Here(partial(work, asked)))
+    assert result.tried > 0
+    assert result.seconds < 20
+    assert not result.findings

@@ -1,0 +1,68 @@
+"""A session goes on after crashes and hangs, and pins each on its question."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from raycert.cases.model import Ray, Sphere
+from raycert.cases.numbers import Scene
+from raycert.cases.protocol import Reply
+from raycert.oracle.client.dialogue import Limits, Unusable
+from raycert.oracle.client.inprocess import InProcess
+from raycert.oracle.client.piped import Command
+from raycert.oracle.client.process import Failure
+from raycert.oracle.hunt.session import Clock, Session, TimeUp
+
+BALL = Sphere((0, 0, 0), 1)
+SCENES = [Scene(BALL, Ray((float(x), 0, 0), (1, 0, 0))) for x in (-3, 7, -2, 5, 7, -4)]
+
+
+@pytest.fixture
+def importable(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[1]))
+
+
+def check(outcomes, kind):
+    assert [isinstance(outcome, Failure) for outcome in outcomes] == [
+        s.ray.origin[0] == 7 for s in SCENES
+    ]
+    assert {outcome.kind for outcome in outcomes if isinstance(outcome, Failure)} == {kind}
+    assert outcomes[0].intervals == ((2.0, 4.0),)
+    assert outcomes[5].intervals == ((3.0, 5.0),)
+
+
+def test_a_crash_is_pinned_and_all_else_is_answered(importable):
+    session = Session(InProcess("callable", "hunted_targets:crashing"), Limits())
+    check(session.ask(SCENES), "crash")
+    check(session.fresh(SCENES), "crash")
+    session.close()
+
+
+def test_a_hang_is_pinned_and_all_else_is_answered(importable):
+    session = Session(InProcess("callable", "hunted_targets:hanging"), Limits(case=0.3))
+    check(session.ask(SCENES), "hang")
+    session.close()
+
+
+def test_a_program_is_asked_in_the_same_way():
+    session = Session(Command((sys.executable, "-m", "raycert.reference")), Limits())
+    assert session.hello.name
+    outcomes = session.ask(SCENES)
+    assert all(isinstance(outcome, Reply) for outcome in outcomes)
+    assert outcomes == session.ask(SCENES)
+    session.close()
+
+
+def test_the_time_is_kept():
+    session = Session(
+        InProcess("callable", "raycert.reference.tracer:intersect"), Limits(), Clock.of(-1)
+    )
+    with pytest.raises(TimeUp):
+        session.ask(SCENES)
+    session.close()
+
+
+def test_what_cannot_be_run_says_so():
+    with pytest.raises(Unusable):
+        _ = Session(InProcess("callable", "no_such_module:x"), Limits()).hello

@@ -1,0 +1,263 @@
+"""Each starter as a user gets it: written, built with its toolchain, certified, to the bit."""
+
+from __future__ import annotations
+
+import json
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from functools import cache
+from importlib.resources import files
+from math import frexp, ldexp, sqrt
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+from raycert.cases.corpus import Corpus, read_corpus
+from raycert.cases.model import SOLIDS, Vector
+from raycert.cases.protocol import Hello, Pairs, Reply
+from raycert.cases.row import GoldenRow
+from raycert.oracle.certify.grading import Grade, grade
+from raycert.oracle.certify.verdict import verdict
+from raycert.oracle.client.harness import Outcome, Question, run
+from raycert.oracle.client.target import target
+from raycert.oracle.commands.certify import certify
+from raycert.oracle.commands.harness import MARK, READERS, STARTERS, harness, templates
+from raycert.reference import quadratic, tracer
+
+each = pytest.mark.parametrize("lang", STARTERS)
+END = b"---- to here ----"
+
+
+def write(lang: str, folder: Path) -> str:
+    """Write a client as the command does, and return what the command says."""
+    result = CliRunner().invoke(harness, [lang, "--out", str(folder)])
+    assert result.exit_code == 0, result.output
+    return result.output
+
+
+def needs(tool: str) -> str:
+    """Return the path of a tool. Where it is missing, skip and name it; on CI, fail."""
+    path = sys.executable if tool == "python3" else shutil.which(tool)
+    if path is None:
+        missing = f"{tool} is not installed: this starter was not built"
+        if os.environ.get("CI") == "true":
+            pytest.fail(missing)
+        pytest.skip(missing)
+    return path
+
+
+def build(lang: str, folder: Path) -> list[str]:
+    """Build a client with the command of its README; return the command that runs it, anywhere."""
+    if STARTERS[lang].build:
+        tool, *rest = shlex.split(STARTERS[lang].build)
+        built = subprocess.run([needs(tool), *rest], cwd=folder, capture_output=True, text=True)
+        assert built.returncode == 0, built.stderr
+        assert "warning" not in built.stderr, built.stderr
+    program, *arguments = shlex.split(STARTERS[lang].run)
+    if "/" in program:
+        return [str(folder / program)]
+    if lang == "java":
+        return [needs(program), "-cp", str(folder), *arguments]
+    return [needs(program), *(str(folder / argument) for argument in arguments)]
+
+
+@cache
+def corpus() -> Corpus:
+    return read_corpus()
+
+
+@cache
+def graded(row: str, pairs: Pairs) -> Grade:
+    """Return the grade of an answer; the starters answer alike, so few rows are graded twice."""
+    return grade(rows()[row], Reply(row, intervals=pairs), Hello("a starter"))
+
+
+@cache
+def rows() -> dict[str, GoldenRow]:
+    return {row.id: row for row in corpus().rows}
+
+
+def answers(command: list[str]) -> dict[str, Pairs]:
+    """Return what an implementation answers to the whole corpus, through the protocol."""
+    ran = run(target(command), [Question(row.id, row.solid, row.ray) for row in corpus().rows])
+    assert not ran.restarts
+    assert not ran.notes
+    assert ran.hello.solids == tuple(SOLIDS)
+    return {id: listed(outcome) for id, outcome in ran.outcomes.items()}
+
+
+def listed(outcome: Outcome) -> Pairs:
+    assert isinstance(outcome, Reply), outcome
+    assert outcome.intervals is not None, outcome
+    return outcome.intervals
+
+
+def scaled_norm(a: Vector) -> float:
+    """Return |a| as the starters do that have no hypot of three numbers as good as Python's."""
+    e = max((frexp(x)[1] for x in a if x), default=0)
+    x, y, z = (ldexp(component, -e) for component in a)
+    return ldexp(sqrt(x * x + y * y + z * z), e)
+
+
+def unlike(subject: dict[str, Pairs]) -> dict[str, tuple[Pairs, Pairs]]:
+    """Return where answers are not those of the reference, bit for bit (-0 is never answered)."""
+    truth = {row.id: tuple(tracer.intersect(row.solid, row.ray)) for row in corpus().rows}
+    return {
+        id: (truth[id], pairs) for id, pairs in subject.items() if repr(truth[id]) != repr(pairs)
+    }
+
+
+@each
+def test_a_starter_is_stable_and_is_the_reference_to_the_bit(
+    lang: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write(lang, tmp_path)
+    command = build(lang, tmp_path)
+    answered = answers(command)
+    grades = [graded(id, pairs) for id, pairs in answered.items()]
+    judged = verdict(grades, "stable", "closed")
+    assert judged.granted, judged.reasons
+    assert {row.tier for row in corpus().rows} == {"lattice", "generic", "stiff", "range"}
+    if lang != "python":
+        monkeypatch.setattr(quadratic, "norm", scaled_norm)
+        monkeypatch.setattr(tracer, "norm", scaled_norm)
+    assert unlike(answered) == {}
+    if lang != "library":
+        check_every_line(command)
+
+
+def test_the_printed_command_certifies(tmp_path: Path) -> None:
+    command = build("c", tmp_path) if write("c", tmp_path) else []
+    certificate = tmp_path / "certificate.json"
+    options = ["--level", "stable", "--out", str(certificate), "--", *command]
+    result = CliRunner().invoke(certify, options)
+    assert result.exit_code == 0, result.output
+    form = json.loads(certificate.read_text())
+    assert form["granted"]
+    assert form["tested"] == len(corpus().rows)
+
+
+def talk(command: list[str], lines: list[str]) -> list[dict[str, Any]]:
+    """Return the replies to lines that end with the input, not with a newline."""
+    said = subprocess.run(
+        command, input="\n".join(lines).encode(), capture_output=True, timeout=30, check=True
+    )
+    *replies, rest = said.stdout.decode().split("\n")
+    assert rest == ""
+    return [json.loads(line) for line in replies]
+
+
+def check_every_line(command: list[str]) -> None:
+    """Odd but good lines are answered, bad ones get an error, and the next one is answered."""
+    [hello] = talk(command, ['{ "hello" :\t1 }'])
+    bits = hello["numbers"] == "bits"
+    zero, one, far = (
+        ('"0000000000000000"', '"3ff0000000000000"', '"C008000000000000"')
+        if bits
+        else ("0", "1.0", "-3e0")
+    )
+    wanted = [["4000000000000000", "4010000000000000"]] if bits else [[2, 4]]
+    ray = f'"ray": {{"direction": [{one}, {zero},{zero}], "origin":[{far},{zero} , {zero}]}}'
+    ball = f'{{"radius": {one}, "\\u0074ype":"sph\\u0065re", "center": [{zero}, {zero}, {zero}]}}'
+    tree = '{"of": [' * 150 + ball + '], "type": "union"}' * 150
+    many = '{"type": "union", "of": [' + ", ".join([ball] * 5000) + "]}"
+    id = r'"a \"quoted\" \\ \u00e9\/<>&\u2028 id"'
+    more = '"more": [{}, [], null, true, -1.5e-3, "]}"]'
+    good = {
+        f'{{{ray},"solid" :{ball},\t{more}, "id": {id}}}': id,
+        f'{{"id": "deep", "solid": {tree}, {ray}}}\r': '"deep"',
+        f'{{"id": "many", "solid": {many}, {ray}}}': '"many"',
+    }
+    torus = f'{{"id": "torus", "solid": {{"type": "torus"}}, {ray}}}'
+    no_radius = ball.replace('"radius"', '"diameter"')
+    short = ball.replace(f"{zero}, {zero}, {zero}", f"{zero}, {zero}")
+    null = ball.replace(one, "null")
+    bad = [
+        f'{{"id": "bad", "solid": {solid}, {ray}}}'
+        for solid in (no_radius, short, null, '{"type": "union", "of": []}', "{}")
+    ]
+    broken = ["", "{", "[1", '{"id": "x",', '{"id": "x}', "[" * 100_000, "{} {}"]
+    replies = talk(command, [*broken, *bad, torus, *good])
+    assert len(replies) == len(broken) + len(bad) + 1 + len(good)
+    for line in broken:
+        assert set(replies.pop(0)) == {"error"}, line
+    for line in bad:
+        reply = replies.pop(0)
+        assert (set(reply), reply["id"]) == ({"id", "error"}, "bad"), line
+    assert set(replies[0]) == {"id", "unsupported"}
+    assert "torus" in replies.pop(0)["unsupported"]
+    for reply, id in zip(replies, good.values(), strict=True):
+        assert reply == {"id": json.loads(id), "intervals": wanted}
+
+
+@each
+def test_one_place_is_marked_and_the_readme_says_the_commands(lang: str) -> None:
+    found = dict(templates(lang))
+    readme = found.pop("README.md").decode()
+    marked = [name for name, data in found.items() if MARK in data]
+    assert len(marked) == 1
+    text = found[marked[0]]
+    assert text.count(MARK) == text.count(END) == 1
+    assert text.index(MARK) < text.index(b"intersect") < text.index(END)
+    starter = STARTERS[lang]
+    assert starter.build in readme
+    assert f"\nraycert certify --level stable -- {starter.run}\n" in readme
+    assert marked[0] in readme
+    for name, data in found.items():
+        assert data.isascii(), name
+        assert max(map(len, data.decode().split("\n"))) <= 100, name
+
+
+def test_the_command_says_what_to_type_next(tmp_path: Path) -> None:
+    folder = tmp_path / "my tracer"
+    said = write("cpp", folder)
+    assert f"cd '{folder}' && {STARTERS['cpp'].build}\n" in said
+    assert "raycert certify --level stable -- ./tracer\n" in said
+    assert "tracer.cpp" in said
+    written = {str(path.relative_to(folder)): path.read_bytes() for path in folder.iterdir()}
+    assert written == dict(templates("cpp"))
+
+
+def test_a_file_that_is_there_is_not_overwritten(tmp_path: Path) -> None:
+    mine = tmp_path / "tracer.go"
+    mine.write_text("mine")
+    result = CliRunner().invoke(harness, ["go", "--out", str(tmp_path)])
+    assert result.exit_code == 2
+    assert "tracer.go" in result.output
+    assert "--force" in result.output
+    assert [path.name for path in tmp_path.iterdir()] == ["tracer.go"]
+    assert mine.read_text() == "mine"
+    forced = CliRunner().invoke(harness, ["go", "--force", "--out", str(tmp_path)])
+    assert forced.exit_code == 0, forced.output
+    assert MARK in mine.read_bytes()
+
+
+@pytest.mark.parametrize("arguments", [["perl"], [], ["C"], [".."]])
+def test_an_unknown_language_gets_the_list(arguments: list[str]) -> None:
+    result = CliRunner().invoke(harness, arguments)
+    assert result.exit_code == 2
+    assert ", ".join(STARTERS) in result.output
+
+
+def test_the_list_is_the_folders() -> None:
+    result = CliRunner().invoke(harness, ["--list"])
+    assert result.exit_code == 0
+    listed = [line.split()[0] for line in result.output.splitlines()]
+    folders = {entry.name for entry in files("raycert.oracle.starters").iterdir() if entry.is_dir()}
+    assert set(listed) == {*STARTERS, READERS} == folders - {"__pycache__"}
+
+
+def test_a_missing_toolchain_is_a_skip_and_on_ci_a_failure(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.delenv("CI", raising=False)
+    with pytest.raises(pytest.skip.Exception, match="no-such-compiler"):
+        needs("no-such-compiler")
+    monkeypatch.setenv("CI", "true")
+    with pytest.raises(pytest.fail.Exception, match="no-such-compiler"):
+        needs("no-such-compiler")
