@@ -1,1 +1,1 @@
-"""Where a ray is inside a solid, exactly: integers and one power of two, no float decides anything."""
+"""Where a ray is inside a solid, exactly: in integers, and no float decides anything."""
