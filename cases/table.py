@@ -56,7 +56,7 @@ class Row:
 class Table(tuple[Row, ...]):
     """The rows of a table, in the seed's order; of any signs, exactly one row holds.
 
-    That the rows exclude one another and leave nothing out is proved in tests/test_cases_table.py.
+    That the rows exclude one another and leave nothing out is proved in tests/cases/test_table.py.
     """
 
     def __new__(cls, *rows: Row) -> Table:

@@ -1,7 +1,7 @@
-"""Problem 1 of the seed: where |y + t v| <= r, in doubles.
+"""Problem 1: where |y + t v| <= r, in doubles.
 
-For the infinite cylinder y and v are the seed's barred vectors; for the sphere they are u - center
-and v themselves. The seed's criterion r|v| < |v x y| and its table serve both.
+For the infinite cylinder y and v are the barred vectors of cases/README.md; for the sphere they are
+u - center and v themselves. The criterion r|v| < |v x y| and the table serve both.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ def chord(y: Vector, v: Vector, r: float) -> Pairs:
 def roots(a: float, b: float, c: float, half: float) -> tuple[float, float]:
     """Return t1 <= t2, the roots (-b - half) / a and (-b + half) / a, with a > 0.
 
-    The seed's formulas of Problem 1 (f) are used as they stand, but for the root whose numerator
+    The formulas of Problem 1 (f) are used as they stand, but for the root whose numerator
     cancels: that one is c / k, with k the numerator of the other. Only where 2 half > |b| does it
     cancel much; elsewhere c / k is the worse one, for c and half do not share their rounding.
     Near a tangent start that can even carry c / k past the other root, and is stopped there.

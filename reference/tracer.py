@@ -1,9 +1,9 @@
-"""Where a ray is inside a solid: the seed's three problems, in doubles.
+"""Where a ray is inside a solid: Problems 1 to 3 of cases/README.md, in doubles.
 
-Each function follows one table of the seed row by row and names the rows. Symbols are those of
+Each function follows one table row by row and names the rows. Symbols are those of
 `cases`: the ray is u + t v, the axis runs from p to q, w = q - p, y = u - p, and the barred vectors
-are crossed with w. The seed's formulas are departed from where doubles need it, and the docstring
-there says where and why.
+are crossed with w. Where doubles need another formula than the derivation's, the docstring says
+which and why.
 """
 
 from __future__ import annotations
@@ -86,7 +86,7 @@ def meet(p: Vector, q: Vector, radius: float, ray: Ray) -> Meeting:
 def infinite_cylinder(m: Meeting) -> Pairs:
     """Problem 1. Return where the distance from the line pq is at most r.
 
-    Departs from the seed in that w is not normalised: every length across the axis, r too, is
+    Unlike in the derivation w is not normalised: every length across the axis, r too, is
     multiplied by |w| instead, which leaves t as it is. So a direction parallel to the axis has a
     vbar of exactly zero, whichever way the axis points; with a rounded w/|w| it would not.
     """
@@ -96,7 +96,7 @@ def infinite_cylinder(m: Meeting) -> Pairs:
 def slab(m: Meeting) -> Pairs:
     """Problem 2 (g). Return where the ray is between the planes through p and q square to pq.
 
-    Departs from the seed in that n = -w is not normalised: only signs and quotients are used. Far
+    Unlike in the derivation n = -w is not normalised: only signs and quotients are used. Far
     from a thin slab both F may come out at once, which cannot be; tq > tp then gives no pair.
     """
     up, uq, vn = -dot(m.y, m.w), -dot(m.z, m.w), -dot(m.v, m.w)

@@ -20,7 +20,7 @@ from raycert.oracle.zoo.matrix import Bench, Outcome
 
 SHARE = 0.92
 """Between 1, the share of a fault with itself, and 0.83, the most that any two of the zoo share
-over the corpus; tests/test_diagnosis.py measures that."""
+over the corpus; tests/certify/test_diagnosis.py measures that."""
 LEAST = 8
 """Fewer failures than these are explained by too many faults."""
 SLACK = 12

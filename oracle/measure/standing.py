@@ -54,7 +54,7 @@ def in_time(name: str, target: Target, counting: Counting) -> Json:
 def _drawn(rows: Any, about: str) -> str | None:
     """Return a plot as SVG; None without matplotlib."""
     try:
-        pareto, style = (import_module(f"oracle.plots.{name}") for name in ("pareto", "style"))
+        pareto, style = (import_module(f"raycert.oracle.plots.{name}") for name in ("pareto", "style"))
     except ModuleNotFoundError as absent:
         if absent.name != "matplotlib":
             raise

@@ -12,7 +12,7 @@ Why the factor 2: moving the planes of a convex body by m moves its vertices by 
 with a the angle between a face and the vertex's ray: 1 / cos(pi / 8) < 1.1 for the coarsest prism,
 less for the balls. Why they enclose: a ball holds all triangles whose corners it holds; a closed
 surface around the center that stays out of a ball holds the ball. The vertices are doubles, and
-`tests/test_witness_meshes.py` proves each of these bounds in exact fractions of those doubles.
+`tests/witness/test_meshes.py` proves each of these bounds in exact fractions of those doubles.
 
 Vertices are turned by a share of a step that no simple slope has, and caps are fans around a point
 off the axis: a ray along an axis or through a center meets neither an edge nor a vertex.

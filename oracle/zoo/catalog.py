@@ -19,7 +19,7 @@ FAULTS: tuple[Fault, ...] = (
 
 BY_NAME: dict[str, Fault] = {fault.name: fault for fault in FAULTS}
 
-HARNESS = "tests/test_client_harness.py::"
+HARNESS = "tests/client/test_harness.py::"
 PINNED = HARNESS + "test_a_fault_is_pinned_on_its_question"
 PROCESS: tuple[Process, ...] = (
     Process(

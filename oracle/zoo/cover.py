@@ -19,7 +19,7 @@ from raycert.oracle.zoo.fault import Fault
 from raycert.oracle.zoo.matrix import LEVELS, Bench, Refusal, line
 
 MOST = 200
-"""More rows than these are no smoke test; tests/test_zoo_cover.py counts them."""
+"""More rows than these are no smoke test; tests/zoo/test_zoo_cover.py counts them."""
 
 Need = tuple[str, str]
 """What a row can serve: (fault, type of solid), or ("", family)."""
