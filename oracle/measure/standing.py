@@ -54,7 +54,8 @@ def in_time(name: str, target: Target, counting: Counting) -> Json:
 def _drawn(rows: Any, about: str) -> str | None:
     """Return a plot as SVG; None without matplotlib."""
     try:
-        pareto, style = (import_module(f"raycert.oracle.plots.{name}") for name in ("pareto", "style"))
+        where = "raycert.oracle.plots"
+        pareto, style = (import_module(f"{where}.{name}") for name in ("pareto", "style"))
     except ModuleNotFoundError as absent:
         if absent.name != "matplotlib":
             raise
