@@ -10,13 +10,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Literal
 
 from raycert.cases.formats import Format
+from raycert.cases.levels import TIERS as TIERS
+from raycert.cases.levels import Tier as Tier
 from raycert.cases.model import Ray, Solid
-
-Tier = Literal["lattice", "generic", "stiff", "range"]
-TIERS: tuple[Tier, ...] = ("lattice", "generic", "stiff", "range")
 
 KnownEnd = Fraction | int | None
 """An endpoint known by construction; None is infinity."""

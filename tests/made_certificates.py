@@ -6,6 +6,7 @@ from functools import cache
 from typing import Any
 
 from raycert.cases.corpus import Corpus, read_corpus
+from raycert.cases.levels import Level
 from raycert.cases.model import Ray, Solid
 from raycert.cases.protocol import Hello, Reply
 from raycert.cases.row import GoldenRow
@@ -14,7 +15,6 @@ from raycert.oracle.certify.environment import environment
 from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.verdict import verdict
 from raycert.oracle.client.process import Failure
-from raycert.oracle.judge.levels import Level
 from raycert.oracle.zoo.catalog import BY_NAME
 
 Json = dict[str, Any]

@@ -12,12 +12,12 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from raycert.cases.corpus import FORMAT_VERSION, Corpus
+from raycert.cases.levels import LEVELS, Level
 from raycert.cases.protocol import Hello
 from raycert.oracle.certify.coverage import case_table
 from raycert.oracle.certify.evidence import answered, case, failure, worst
 from raycert.oracle.certify.grading import Grade
 from raycert.oracle.certify.verdict import Group, Touches, Verdict, Window, by_family, by_solid
-from raycert.oracle.judge.levels import LEVELS, Level
 
 Json = dict[str, Any]
 CERTIFICATE_VERSION = 1

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from raycert.cases.levels import Level
 from raycert.cases.model import type_of
 from raycert.cases.table import PROBLEM_1, PROBLEM_2, Row, cells, pairs_of_rows
 from raycert.oracle.certify.grading import Grade
 from raycert.oracle.certify.verdict import Tally
-from raycert.oracle.judge.levels import Level
 
 Json = dict[str, Any]
 

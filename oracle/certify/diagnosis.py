@@ -12,8 +12,8 @@ from math import isinf, isnan, ldexp
 
 from raycert.cases.accept import Numbers
 from raycert.cases.formats import Format
+from raycert.cases.levels import Level
 from raycert.oracle.certify.grading import Grade
-from raycert.oracle.judge.levels import Level
 from raycert.oracle.zoo.catalog import FAULTS
 from raycert.oracle.zoo.fault import Fault
 from raycert.oracle.zoo.matrix import Bench, Outcome

@@ -13,13 +13,14 @@ from typing import Any
 
 from raycert.cases.accept import Numbers
 from raycert.cases.forms import write_ray, write_solid
+from raycert.cases.levels import Level
 from raycert.cases.model import Tree
 from raycert.cases.protocol import Hello
 from raycert.cases.row import End, GoldenRow
 from raycert.oracle.certify.grading import Grade, kept
 from raycert.oracle.certify.verdict import severity
 from raycert.oracle.judge.answer import First, YesNo
-from raycert.oracle.judge.levels import MEASURES, Level
+from raycert.oracle.judge.levels import MEASURES
 from raycert.oracle.zoo.matrix import kind as how
 
 Json = dict[str, Any]

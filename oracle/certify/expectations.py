@@ -19,8 +19,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Literal
 
+from raycert.cases.levels import LEVELS, Level
 from raycert.cases.model import SOLIDS
-from raycert.oracle.judge.levels import LEVELS, Level
 
 Kind = Literal["id", "family", "convention"]
 KINDS: tuple[Kind, ...] = ("id", "family", "convention")

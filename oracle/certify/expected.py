@@ -12,12 +12,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
 
+from raycert.cases.levels import LEVELS, Level, upto
 from raycert.cases.model import type_of
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.expectations import Expectation, Expectations
 from raycert.oracle.certify.grading import Grade
 from raycert.oracle.certify.verdict import Touches, by_solid
-from raycert.oracle.judge.levels import LEVELS, Level
 
 Found = Literal["met", "idle", "passes", "unmatched"]
 
@@ -54,8 +54,7 @@ def failed_level(grade: Grade, asked: Level) -> Level | None:
     """Return the lowest level that a row fails, of those up to the one asked; None if none."""
     if grade.row.tier == "range":
         return None
-    upto = LEVELS[: LEVELS.index(asked) + 1]
-    return next((level for level in upto if grade.fault(level)), None)
+    return next((level for level in upto(asked) if grade.fault(level)), None)
 
 
 def match(
@@ -190,7 +189,7 @@ class _Run:
             return ["nothing was tested"]
         found = []
         for group in by_solid(self.grades):
-            for level in LEVELS[: LEVELS.index(self.level) + 1]:
+            for level in upto(self.level):
                 tally = group.tally(level)
                 if not tally.passed and not tally.failed:
                     found.append(f"{group.name}: no row decides {level}")

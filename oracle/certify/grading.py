@@ -12,12 +12,13 @@ from functools import cached_property
 from math import inf
 
 from raycert.cases.accept import Numbers
+from raycert.cases.levels import LEVELS, Level
 from raycert.cases.protocol import Hello, Reply, convention
 from raycert.cases.row import GoldenRow
 from raycert.oracle.client.process import Failure
 from raycert.oracle.judge.answer import Answer, Listed, answer
 from raycert.oracle.judge.decisive import decisive
-from raycert.oracle.judge.levels import LEVELS, MEASURES, Enclosures, Judge, Level
+from raycert.oracle.judge.levels import MEASURES, Enclosures, Judge
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from raycert.cases.corpus import GOLDEN, Corpus, read_corpus
+from raycert.cases.levels import Level
 from raycert.cases.protocol import Hello
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.certificate import Asked, Json, Left, Ran, certificate
@@ -32,7 +33,6 @@ from raycert.oracle.client.harness import run as ask
 from raycert.oracle.client.smoke import diagnose as diagnose_adapter
 from raycert.oracle.client.smoke import limits as soon
 from raycert.oracle.corpus.fresh import Fresh, fresh_rows
-from raycert.oracle.judge.levels import Level
 
 BLOCK = 256
 """Questions that are asked before the answers are judged, where the first failure ends the run."""

@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from math import frexp
 
+from raycert.cases.levels import LEVELS, Level, upto
 from raycert.cases.model import leaves, type_of
 from raycert.cases.protocol import TOUCHES, convention
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import Grade
 from raycert.oracle.exact.grid import lengths
-from raycert.oracle.judge.levels import LEVELS, Level
 
 
 @dataclass(frozen=True, slots=True)
@@ -185,7 +185,7 @@ def verdict(grades: Sequence[Grade], level: Level, wanted: str) -> Verdict:
         return NOTHING
     reasons = []
     for group in by_solid(grades):
-        for lower in LEVELS[: LEVELS.index(level) + 1]:
+        for lower in upto(level):
             tally = group.tally(lower)
             if not tally.granted:
                 reasons.append(_refusal(group, lower, tally))

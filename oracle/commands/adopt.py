@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from raycert.cases.levels import TIERS
 from raycert.oracle.commands.asking import from_json
-from raycert.oracle.commands.listing import PRECISIONS, TIER_NAMES, BadInput
-from raycert.oracle.commands.output import check_writable
+from raycert.oracle.commands.options import PRECISIONS, BadInput, check_writable
 
 if TYPE_CHECKING:
     from raycert.cases.formats import Format
@@ -46,7 +46,7 @@ or the corpus has the case already.
 @click.option("--slug", help="Its name in the family  [default: from what it shows]")
 @click.option("--source", help="The public report that it comes from.")
 @click.option("--flag", "flags", multiple=True, help="A flag of the legend (repeatable).")
-@click.option("--tier", type=click.Choice(TIER_NAMES), help="[default: told by its numbers]")
+@click.option("--tier", type=click.Choice(TIERS), help="[default: told by its numbers]")
 @click.option(
     "--precision",
     type=click.Choice(PRECISIONS),

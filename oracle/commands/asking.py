@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from raycert.oracle.commands.listing import BadInput
+from raycert.oracle.commands.options import BadInput
 
 if TYPE_CHECKING:
     from fractions import Fraction

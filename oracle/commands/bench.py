@@ -75,8 +75,7 @@ def bench(**options: Any) -> None:
     if options["listing"]:
         _list()
         return
-    from raycert.oracle.commands.output import check_writable
-    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.commands.options import check_writable, counting
     from raycert.oracle.measure.bench.run import run, steps
 
     scenarios = _scenarios(options)
@@ -120,7 +119,7 @@ def _effort(options: dict[str, Any]) -> Any:
 def _methods(options: dict[str, Any]) -> tuple[list[Method], list[str]]:
     """Return the methods to run, and notes on those that cannot."""
     from raycert.oracle.client.dialogue import Unusable
-    from raycert.oracle.commands.targeting import stop
+    from raycert.oracle.commands.options import stop
     from raycert.oracle.measure.methods.catalog import BY_NAME, chosen, here
 
     for name in options["names"]:
@@ -227,7 +226,7 @@ def _write(report: Report, folder: Path) -> None:
 
 
 def _time_commands() -> None:
-    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.commands.options import counting
     from raycert.oracle.measure.bench.commands import COMMANDS, command
 
     rows: list[Whole] = []

@@ -1,28 +1,47 @@
-"""`raycert certify`: grade an implementation on the golden cases."""
+"""`raycert certify` grades an implementation; `raycert report` writes its reports again."""
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.output import check_writable
-from raycert.oracle.commands.reporting import write_reports
-from raycert.oracle.commands.targeting import TARGETS, aim, limits, limits_options, spelled, stop
+from raycert.oracle.commands.options import (
+    FILE,
+    KNOWN_FILE,
+    TARGETS,
+    Function,
+    aim,
+    check_convention,
+    check_writable,
+    counting,
+    family_option,
+    golden_option,
+    id_option,
+    level_option,
+    limits,
+    limits_options,
+    solid_option,
+    spelled,
+    stop,
+    tier_option,
+    write_text,
+)
 
 if TYPE_CHECKING:
     from raycert.oracle.certify.expectations import Expectations
     from raycert.oracle.certify.run import Plan, Result
     from raycert.oracle.client.dialogue import Target
 
-LEVEL_NAMES = ("sound", "stable", "faithful", "exact")
-TIER_NAMES = ("lattice", "generic", "stiff", "range")
-FILE = click.Path(dir_okay=False, path_type=Path)
-KNOWN = click.Path(exists=True, dir_okay=False, path_type=Path)
 NARROWED = ("solids", "tiers", "families", "ids", "smoke")
-REPORTS = ("junit", "markdown", "html")
+REPORTS = {
+    "html": "One page with pictures that needs no network.",
+    "markdown": "A summary for a CI job.",
+    "junit": "JUnit XML: one test for a family.",
+}
 
 EPILOG = f"""{TARGETS}
 \b
@@ -54,35 +73,37 @@ input; 3 the target could not be run or nothing was tested.
 """
 
 
+def report_options(function: Function) -> Function:
+    """Add an option for each form of report."""
+    out = click.Path(dir_okay=False, allow_dash=True)
+    for form, text in reversed(REPORTS.items()):
+        function = click.option(f"--{form}", type=out, metavar="FILE", help=text)(function)
+    return function
+
+
 @click.command(epilog=EPILOG)
 @click.argument("target", nargs=-1, required=True, type=click.UNPROCESSED)
-@click.option("--level", type=click.Choice(LEVEL_NAMES), default="sound", show_default=True)
+@level_option("sound")
 @click.option(
     "--convention",
     default="closed",
     show_default=True,
     help="closed, regularized, or either with exceptions: 'closed but rim start'.",
 )
-@click.option("--solid", "solids", multiple=True, help="Only this solid type (repeatable).")
-@click.option("--tier", "tiers", multiple=True, type=click.Choice(TIER_NAMES), help="Only this.")
-@click.option("--family", "families", multiple=True, help="Only this family (repeatable).")
-@click.option("--id", "ids", multiple=True, help="Only this row (repeatable).")
+@solid_option
+@tier_option
+@family_option
+@id_option
 @click.option("--smoke", is_flag=True, help="Only some 150 rows that refuse every planted fault.")
 @click.option("--shard", help="Only one of several parts, such as 2/5.")
 @click.option("--seed", type=click.IntRange(min=0), help="Ask cases drawn from this seed too.")
 @click.option("--fresh", type=click.IntRange(1, 100_000), help="Cases in that block (500).")
 @click.option("--fail-fast", is_flag=True, help="End soon after the first row that fails.")
-@click.option("--expect", type=KNOWN, help="Known failures: a TOML file, with reasons.")
+@click.option("--expect", type=KNOWN_FILE, help="Known failures: a TOML file, with reasons.")
 @click.option("--write-expectations", "record", type=FILE, help="Write such a file.")
-@click.option(
-    "--golden",
-    type=click.Path(exists=True, file_okay=False, path_type=Path),
-    help="Golden files to use instead of the installed ones.",
-)
+@golden_option
 @click.option("--out", type=FILE, default="certificate.json", show_default=True)
-@click.option("--html", type=FILE, help="Write the certificate as a page with pictures.")
-@click.option("--markdown", type=FILE, help="Write a summary for a CI job.")
-@click.option("--junit", type=FILE, help="Write JUnit XML.")
+@report_options
 @click.option("--stress", is_flag=True, help="Set its error against stiffness too (a minute).")
 @click.option("--bench", is_flag=True, help="Set its error against run time too.")
 @limits_options
@@ -92,13 +113,13 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     A level is granted to a type of solid if every row that decides it passes. What TARGET does not
     declare is not sent, and listed as not tested. Nothing else is left out.
     """
-    from raycert.oracle.certify.expectations import Expectations
+    from raycert.oracle.certify.expectations import write
     from raycert.oracle.reports.reading import verdict
 
-    for name in ("out", *REPORTS, "record"):
-        if options[name]:
-            option = "--write-expectations" if name == "record" else f"--{name}"
-            check_writable(options[name].parent, option)
+    for option, out in (("--out", options["out"]), ("--write-expectations", options["record"])):
+        if out:
+            check_writable(out.parent, option)
+    reports = _wanted(options)
     expected = _expectations(options["expect"])
     for line in expected.warnings if expected else ():
         click.echo(f"raycert: {options['expect']}: {line}", err=True)
@@ -107,8 +128,10 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     form = result.form(spelled(target), known)
     form["standing"] = _standing(result.prepared.hello.name, aim(target), options)
     if options["record"]:
-        _write(options["record"], _recorded(result, expected or Expectations()))
-    _publish(form, options)
+        write_text(options["record"], write(result.recorded(expected)))
+    write_text(options["out"], json.dumps(form, indent=1, allow_nan=False) + "\n")
+    write_reports(form, reports)
+    _print(form, " ".join((str(options["out"]), *reports.values())))
     if not form["tested"] or form["reasons"] == ["nothing was tested"]:
         raise SystemExit(3)
     raise SystemExit(0 if verdict(form).good else 1)
@@ -116,17 +139,15 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
 
 def _plan(target: tuple[str, ...], options: dict[str, Any]) -> Plan:
     from raycert.cases.corpus import GOLDEN
-    from raycert.cases.protocol import BadLine, convention
     from raycert.oracle.certify.run import Plan
     from raycert.oracle.certify.selection import BadShard, Selection, Shard
     from raycert.oracle.corpus.fresh import COUNT, Fresh
 
+    check_convention(options["convention"])
     try:
-        convention(options["convention"])
         shard = Shard.parse(options["shard"]) if options["shard"] else None
-    except (BadLine, BadShard) as error:
-        hint = "--shard" if isinstance(error, BadShard) else "--convention"
-        raise click.BadParameter(str(error), param_hint=hint) from None
+    except BadShard as error:
+        raise click.BadParameter(str(error), param_hint="--shard") from None
     if options["fresh"] and options["seed"] is None:
         raise click.UsageError(
             "--fresh is the size of the block that --seed draws: give --seed too"
@@ -153,18 +174,11 @@ def _expectations(path: Path | None) -> Expectations | None:
         raise click.BadParameter(str(error), param_hint="--expect") from None
 
 
-def _recorded(result: Result, old: Expectations) -> str:
-    from raycert.oracle.certify.expectations import write
-
-    return write(result.recorded(old))
-
-
 def _run(plan: Plan) -> Result:
     """Certify; what keeps the target from being tested ends the program."""
     from raycert.cases.corpus import BadCorpus
     from raycert.oracle.certify.run import NotInCorpus, Unsuitable, Watch, certify
     from raycert.oracle.client.dialogue import Unusable
-    from raycert.oracle.commands.progress import counting
 
     def note(line: str) -> None:
         click.echo(f"the adapter, rather than the tracer: {line}", err=True)
@@ -182,7 +196,6 @@ def _run(plan: Plan) -> Result:
 def _standing(name: str, target: Target, options: dict[str, Any]) -> dict[str, Any]:
     """Measure where the target sits, as far as that is asked."""
     from raycert.oracle.client.dialogue import Unusable
-    from raycert.oracle.commands.progress import counting
     from raycert.oracle.measure.standing import in_time, under_stress
 
     standing: dict[str, Any] = {"stress": None, "bench": None}
@@ -195,22 +208,64 @@ def _standing(name: str, target: Target, options: dict[str, Any]) -> dict[str, A
     return standing
 
 
-def _publish(form: dict[str, Any], options: dict[str, Any]) -> None:
-    """Write the certificate and the reports asked for, and print it."""
-    import json
+def _wanted(options: dict[str, Any]) -> dict[str, str]:
+    """Return the reports asked for, form and file; a file that cannot be written is refused."""
+    reports = {form: options[form] for form in REPORTS if options[form] is not None}
+    for form, out in reports.items():
+        if out != "-":
+            check_writable(Path(out).parent, f"--{form}")
+    return reports
 
+
+def write_reports(certificate: dict[str, Any], reports: dict[str, str]) -> None:
+    """Write a certificate in each form (a key of WRITERS) to its file; `-` is standard output."""
+    from raycert.oracle.reports.write import WRITERS
+
+    for form, out in reports.items():
+        write_text(out, WRITERS[form](certificate))
+
+
+def _print(certificate: dict[str, Any], written: str | None) -> None:
     from rich.console import Console
 
-    from raycert.oracle.reports.terminal import report
+    from raycert.oracle.reports.terminal import report as show
 
-    _write(options["out"], json.dumps(form, indent=1, allow_nan=False) + "\n")
-    asked = {name: str(options[name]) for name in REPORTS if options[name]}
-    write_reports(form, asked)
-    written = " ".join((str(options["out"]), *asked.values()))
-    report(form, Console(width=None if sys.stdout.isatty() else 120), written)
+    show(certificate, Console(width=None if sys.stdout.isatty() else 120), written)
 
 
-def _write(path: Path, text: str) -> None:
-    from raycert.cases.corpus import write_whole
+REPORT_EPILOG = """\b
+Examples:
+  raycert report certificate.json
+  raycert report certificate.json --html out.html --junit out.xml
+  raycert report certificate.json --markdown - >> "$GITHUB_STEP_SUMMARY"
 
-    write_whole(path, text.encode("utf-8", "replace"))
+Exit status: 0 done, 2 the file is no certificate, or bad usage.
+"""
+
+
+@click.command(epilog=REPORT_EPILOG)
+@click.argument("certificate", type=KNOWN_FILE)
+@report_options
+def report(certificate: Path, **options: str | None) -> None:
+    """Write the reports of a certificate: the same as certify's own options do.
+
+    CERTIFICATE is the JSON file that certify wrote. Without an option the report for a terminal is
+    printed. A FILE of - is standard output.
+    """
+    reports = _wanted(options)
+    form = _read(certificate)
+    if reports:
+        write_reports(form, reports)
+    else:
+        _print(form, None)
+
+
+def _read(path: Path) -> dict[str, Any]:
+    from raycert.oracle.reports.form import BadCertificate, check
+
+    try:
+        return check(json.loads(path.read_bytes()))
+    except BadCertificate as error:
+        raise click.UsageError(f"{path}: {error}") from None
+    except (ValueError, RecursionError) as error:
+        raise click.UsageError(f"{path} is not JSON: {error}") from None

@@ -6,9 +6,11 @@ import re
 import shlex
 from collections import Counter
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 import click
+
+from raycert.oracle.commands.options import family_option, golden_option, stop
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -46,15 +48,11 @@ installed or nothing was checked.
 @click.option(
     "--witness", "names", multiple=True, type=click.Choice(NAMES), help="Only this (repeatable)."
 )
-@click.option("--family", "families", multiple=True, help="Only this family (repeatable).")
+@family_option
 @click.option("--fresh", type=click.IntRange(min=1), metavar="N", help="N cases drawn anew.")
 @click.option("--seed", default=1, show_default=True, help="What --fresh draws from.")
 @click.option("--json", "lines", multiple=True, metavar="CASE", help="This case (repeatable).")
-@click.option(
-    "--golden",
-    type=click.Path(exists=True, file_okay=False, path_type=Path),
-    help="Golden files to use instead of the installed ones.",
-)
+@golden_option
 @click.option("--workers", type=click.IntRange(min=1), default=2, show_default=True)
 def crosscheck(names: tuple[str, ...], **options: Any) -> None:
     """Check the oracle's answers by witnesses that share no formula with it."""
@@ -66,17 +64,12 @@ def crosscheck(names: tuple[str, ...], **options: Any) -> None:
     _require(chosen)
     questions = _questions(options)
     if not questions:
-        _stop("nothing to check: the golden files hold no rows")
+        stop("nothing to check: the golden files hold no rows")
     workers = min(options["workers"], -(-len(questions) // 16))
     status = _crosscheck(questions, chosen, workers)
     if "meshes" in chosen and not options["lines"]:
         _print_curve()
     raise SystemExit(status)
-
-
-def _stop(message: str) -> NoReturn:
-    click.echo(f"raycert: {message}", err=True)
-    raise SystemExit(3)
 
 
 def _require(names: Sequence[str]) -> None:
@@ -88,7 +81,7 @@ def _require(names: Sequence[str]) -> None:
             load(name)
         except Missing as missing:
             others = " ".join(f"--witness {other}" for other in NAMES[:2])
-            _stop(f"{missing}; or leave it out: raycert crosscheck {others}")
+            stop(f"{missing}; or leave it out: raycert crosscheck {others}")
 
 
 def _questions(options: dict[str, Any]) -> list[Question]:
@@ -142,7 +135,7 @@ def _rows(folder: Path | None, families: tuple[str, ...]) -> list[Question]:
 def _crosscheck(questions: list[Question], names: Sequence[str], workers: int) -> int:
     from rich.console import Console
 
-    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.commands.options import counting
     from raycert.oracle.witness.crosscheck import Summary
     from raycert.oracle.witness.crosscheck import crosscheck as run
 

@@ -8,8 +8,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from raycert.oracle.commands.asking import from_json, from_words, shape_options, words_given
-from raycert.oracle.commands.listing import find, golden_option, precision_option, read
-from raycert.oracle.commands.output import check_writable
+from raycert.oracle.commands.options import (
+    check_writable,
+    find,
+    golden_option,
+    precision_option,
+    read,
+)
 
 if TYPE_CHECKING:
     from raycert.oracle.explain.derive import Derivation
@@ -106,7 +111,7 @@ def _write(file: str, derivation: Derivation, options: dict[str, Any], id: str |
     import shlex
 
     from raycert.cases.corpus import write_whole
-    from raycert.oracle.commands.targeting import aim
+    from raycert.oracle.commands.options import aim
     from raycert.oracle.explain.casepage import case_page
     from raycert.oracle.explain.one_case import ask
 

@@ -8,12 +8,13 @@ from typing import TYPE_CHECKING
 
 import click
 
-from raycert.oracle.commands.listing import (
-    TIER_NAMES,
+from raycert.oracle.commands.options import (
     BadInput,
+    family_option,
     golden_option,
     precision_option,
     read,
+    tier_option,
     unknown,
 )
 
@@ -105,8 +106,8 @@ def _help() -> str:
     show_default=True,
     help="File to write; - is standard output.",
 )
-@click.option("--family", "families", multiple=True, help="Only this family (repeatable).")
-@click.option("--tier", "tiers", multiple=True, type=click.Choice(TIER_NAMES), help="Only this.")
+@family_option
+@tier_option
 @click.option(
     "--solids", help="Only rows made of these types alone, between commas: slab,cylinder."
 )

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from raycert.oracle.commands.output import check_writable
+from raycert.oracle.commands.options import check_writable
 
 if TYPE_CHECKING:
     from raycert.cases.case import Family
@@ -98,7 +98,7 @@ def _place(folder: Path | None, corpus: Path | None) -> tuple[Path, tuple[Family
 @contextmanager
 def _progress(verb: str) -> Iterator[Callable[[str], None]]:
     """Show how many rows are done, on a terminal only."""
-    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.commands.options import counting
 
     with counting(verb) as advance:
         yield lambda _: advance()

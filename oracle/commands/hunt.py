@@ -6,13 +6,24 @@ import shlex
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.output import check_writable
-from raycert.oracle.commands.targeting import TARGETS, aim, limits, limits_options, spelled, stop
+from raycert.oracle.commands.options import (
+    FOLDER,
+    TARGETS,
+    aim,
+    check_convention,
+    check_writable,
+    golden_option,
+    level_option,
+    limits,
+    limits_options,
+    solid_option,
+    spelled,
+    stop,
+)
 
 if TYPE_CHECKING:
     from raycert.oracle.client.dialogue import Target
@@ -20,8 +31,6 @@ if TYPE_CHECKING:
     from raycert.oracle.hunt.search import Finding, Hunt
     from raycert.oracle.hunt.unit import Job
 
-LEVEL_NAMES = ("sound", "stable", "faithful", "exact")
-FOLDER = click.Path(file_okay=False, path_type=Path)
 SECONDS = 60.0
 
 EPILOG = f"""{TARGETS}
@@ -56,10 +65,10 @@ target could not be run.
 
 @click.command(epilog=EPILOG)
 @click.argument("target", nargs=-1, required=True, type=click.UNPROCESSED)
-@click.option("--level", type=click.Choice(LEVEL_NAMES), default="stable", show_default=True)
+@level_option("stable")
 @click.option("--convention", help="Count touches against this too: closed, regularized, ...")
 @click.option("--range/--no-range", "far", help="Count cases that over- or underflow too.")
-@click.option("--solid", "solids", multiple=True, help="Only these types (repeatable).")
+@solid_option
 @click.option("--time", "seconds", type=click.FloatRange(0.1), help="Seconds to hunt (60).")
 @click.option("--cases", type=click.IntRange(1), help="Cases to try, instead of a time.")
 @click.option("--most", type=click.IntRange(1), default=20, show_default=True, help="Causes.")
@@ -69,7 +78,7 @@ target could not be run.
 @click.option(
     "--golden-seeds/--no-golden", "seeded", default=True, help="Move golden rows too, or none."
 )
-@click.option("--golden", type=click.Path(exists=True, file_okay=False, path_type=Path))
+@golden_option
 @click.option(
     "--examples", type=FOLDER, help="Keep Hypothesis's examples here, and try them first."
 )
@@ -88,8 +97,6 @@ def hunt(target: tuple[str, ...], **options: Any) -> None:
 def _check(options: dict[str, Any]) -> None:
     """Refuse what cannot be done, before the work."""
     from raycert.cases.corpus import MANIFEST, BadCorpus, read_manifest
-    from raycert.cases.model import SOLIDS
-    from raycert.cases.protocol import BadLine, convention
 
     if options["cases"] and options["seconds"]:
         raise click.UsageError("--time and --cases exclude one another")
@@ -97,13 +104,7 @@ def _check(options: dict[str, Any]) -> None:
         raise click.UsageError("--workers and --scheduler exclude one another")
     if options["golden"] and not options["seeded"]:
         raise click.UsageError("--golden and --no-golden exclude one another")
-    if unknown := [name for name in options["solids"] if name not in SOLIDS]:
-        known = ", ".join(SOLIDS)
-        raise click.BadParameter(f"{', '.join(unknown)}; known: {known}", param_hint="--solid")
-    try:
-        convention(options["convention"] or "closed")
-    except BadLine as error:
-        raise click.BadParameter(str(error), param_hint="--convention") from None
+    check_convention(options["convention"] or "closed")
     check_writable(options["out"], "--out")
     read = [("--golden", options["golden"])] if options["golden"] else []
     read += [("--out", options["out"])] if (options["out"] / MANIFEST).exists() else []

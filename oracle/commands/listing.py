@@ -6,17 +6,23 @@ import sys
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, Any
 
 import click
+
+from raycert.cases.levels import LEVELS, TIERS
+from raycert.oracle.commands.options import (
+    find,
+    golden_option,
+    precision_option,
+    read,
+    unknown,
+)
 
 if TYPE_CHECKING:
     from raycert.cases.corpus import Corpus
     from raycert.cases.row import GoldenRow
 
-TIER_NAMES = ("lattice", "generic", "stiff", "range")
-LEVEL_NAMES = ("sound", "stable", "faithful", "exact")
-PRECISIONS = ("binary64", "binary32")
 FIELDS = ("family", "tier", "flag", "row", "solid", "source", "touch", "decisive")
 
 LIST_EXAMPLES = """\b
@@ -40,73 +46,16 @@ Examples:
   raycert explain behind/across-just-past            the same case, derived
 """
 
-golden_option = click.option(
-    "--golden",
-    type=click.Path(exists=True, file_okay=False, path_type=Path),
-    help="Golden files to use instead of the installed ones.",
-)
-precision_option = click.option(
-    "--precision",
-    type=click.Choice(PRECISIONS),
-    default="binary64",
-    show_default=True,
-    help="Number format of the rows.",
-)
-
-
-class BadInput(click.ClickException):
-    """An input that is refused: exit 2, with what to do."""
-
-    exit_code = 2
-
-
-def read(precision: str, golden: Path | None) -> Corpus:
-    """Return the rows of a precision, or stop with what is wrong with the files."""
-    from raycert.cases.corpus import GOLDEN, BadCorpus, read_corpus
-
-    try:
-        return read_corpus(precision, golden or GOLDEN)
-    except BadCorpus as error:
-        raise BadInput(str(error)) from None
-
-
-def find(corpus: Corpus, id: str) -> GoldenRow:
-    """Return the row with an id, or stop with the ids that come near."""
-    row = corpus.row(id)
-    if row is None:
-        family = id.partition("/")[0]
-        families = {row.family for row in corpus.rows}
-        hint = f"--family {family}" if family in families else "--families"
-        known = (row.id for row in corpus.rows)
-        unknown("row", id, known, f"in {corpus.precision}", f"see: raycert list {hint}")
-    return row
-
-
-def unknown(
-    what: str, value: str, known: Iterable[str], where: str = "", hint: str = ""
-) -> NoReturn:
-    """Stop: no such value, and which come near."""
-    from difflib import get_close_matches
-
-    names = sorted(set(known))
-    near = [name for name in names if value and value in name][:5]
-    near = near or get_close_matches(value, names, n=5, cutoff=0.5)
-    if near:
-        hint = f"near: {', '.join(near)}"
-    raise BadInput(
-        f"no {what} {value!r} {where}".rstrip() + f"; {hint or 'known: ' + ', '.join(names)}"
-    )
-
 
 @click.command(name="list", epilog=LIST_EXAMPLES)
 @click.option("--family", "families", multiple=True, help="Of this family (repeat: any of them).")
-@click.option("--tier", "tiers", multiple=True, type=click.Choice(TIER_NAMES), help="Of this tier.")
+@click.option("--tier", "tiers", multiple=True, type=click.Choice(TIERS), help="Of this tier.")
 @click.option("--flag", "flags", multiple=True, help="With this flag (repeat: all of them).")
 @click.option("--row", "rows", multiple=True, help="Taking this table row (repeat: all of them).")
 @click.option("--solid", "solids", multiple=True, help="Of this solid type.")
 @click.option("--source", help="With this text in the source, such as geant4.")
 @click.option("--touch", help="With a touch of this kind: tangent, wall, cap, rim, start.")
-@click.option("--not-decisive", type=click.Choice(LEVEL_NAMES), help="Not decisive for this level.")
+@click.option("--not-decisive", type=click.Choice(LEVELS), help="Not decisive for this level.")
 @click.option(
     "--count",
     is_flag=False,
@@ -229,7 +178,7 @@ def _print_families(rows: list[GoldenRow]) -> None:
     width = _screen()
     for name in dict.fromkeys(row.family for row in rows):
         tiers = Counter[str](row.tier for row in rows if row.family == name)
-        counts = ", ".join(f"{tiers[tier]} {tier}" for tier in TIER_NAMES if tiers[tier])
+        counts = ", ".join(f"{tiers[tier]} {tier}" for tier in TIERS if tiers[tier])
         reason = reasons.get(name, "")
         if width is None:
             click.echo(f"{name}\t{counts}\t{reason}")

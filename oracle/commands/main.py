@@ -2,68 +2,48 @@
 
 from __future__ import annotations
 
+from difflib import get_close_matches
 from importlib import import_module
 from typing import Any
 
 import click
 
-VERBS: dict[str, tuple[str, str]] = {
-    "certify": (
-        "raycert.oracle.commands.certify:certify",
-        "Grade an implementation on the golden cases.",
-    ),
-    "report": (
-        "raycert.oracle.commands.reporting:report",
-        "Write the reports of a certificate again.",
-    ),
-    "explain": ("raycert.oracle.commands.explain:explain", "Derive one case in the seed's steps."),
-    "list": (
-        "raycert.oracle.commands.listing:list_cases",
-        "List golden cases by family, flag, tier, row.",
-    ),
-    "show": ("raycert.oracle.commands.listing:show", "Show golden rows in full."),
-    "export": ("raycert.oracle.commands.export:export", "Write the golden cases as flat TSV."),
-    "golden": ("raycert.oracle.commands.golden:golden", "Regenerate or check the golden files."),
-    "harness": (
-        "raycert.oracle.commands.harness:harness",
-        "Write a starter client in C, C++, Rust, Go, Java, ...",
-    ),
-    "zoo": (
-        "raycert.oracle.commands.zoo:zoo",
-        "Try planted wrong tracers: who refuses which, and why.",
-    ),
-    "crosscheck": (
-        "raycert.oracle.commands.crosscheck:crosscheck",
-        "Check the oracle by independent witnesses.",
-    ),
-    "bench": (
-        "raycert.oracle.commands.bench:bench",
-        "Set error against run time, on the same rays.",
-    ),
-    "render": ("raycert.oracle.commands.render:render", "Render a scene: depth, normals, error."),
-    "plan": (
-        "raycert.oracle.commands.plan:plan",
-        "What a scene lets the tracer leave out, and why.",
-    ),
-    "speed": (
-        "raycert.oracle.commands.speed:speed",
-        "What answers cost beside other ways, as ratios.",
-    ),
-    "stress": (
-        "raycert.oracle.commands.stress:stress",
-        "Set error against how stiff the problem is.",
-    ),
-    "hunt": ("raycert.oracle.commands.hunt:hunt", "Search for failing cases and make them simple."),
-    "map": (
-        "raycert.oracle.commands.map:draw_map",
-        "Draw what surrounds a case: exact answers, errors.",
-    ),
-    "adopt": ("raycert.oracle.commands.adopt:adopt", "Keep a found case in the corpus."),
-    "serve": (
-        "raycert.oracle.commands.serve:serve",
-        "Answer the line protocol: oracle or reference.",
-    ),
+VERBS: dict[str, dict[str, tuple[str, str]]] = {
+    "Certify your tracer": {
+        "harness": ("harness", "Write a starter client in C, C++, Rust, Go, Java, ..."),
+        "certify": ("certify", "Grade an implementation on the golden cases."),
+        "report": ("certify:report", "Write the reports of a certificate again."),
+        "explain": ("explain", "Derive one case, step by step."),
+        "show": ("listing:show", "Show golden rows in full."),
+        "list": ("listing:list_cases", "List golden cases by family, flag, tier, row."),
+    },
+    "Have the corpus": {
+        "export": ("export", "Write the golden cases as flat TSV."),
+        "golden": ("golden", "Regenerate or check the golden files."),
+        "adopt": ("adopt", "Keep a found case in the corpus."),
+        "serve": ("serve", "Answer the line protocol: oracle or reference."),
+    },
+    "Look further": {
+        "hunt": ("hunt", "Search for failing cases and make them simple."),
+        "map": ("map:draw_map", "Draw what surrounds a case: exact answers, errors."),
+        "render": ("render", "Render a scene: depth, normals, error."),
+        "plan": ("plan", "What a scene lets the tracer leave out, and why."),
+    },
+    "Why believe us": {
+        "crosscheck": ("crosscheck", "Check the oracle by independent witnesses."),
+        "zoo": ("zoo", "Try planted wrong tracers: who refuses which, and why."),
+    },
+    "How fast, how far": {
+        "bench": ("bench", "Set error against run time, on the same rays."),
+        "stress": ("stress", "Set error against how stiff the problem is."),
+        "speed": ("speed", "What answers cost beside other ways, as ratios."),
+    },
 }
+"""By what a person comes for: the verbs, each with its module here (and function, where that is
+not named like it), and what it does."""
+PLACES = {verb: place for group in VERBS.values() for verb, (place, _) in group.items()}
+FORMER: dict[str, str] = {}
+"""Verbs that went into others, each with what to type now."""
 
 EPILOG = """\b
 First steps:
@@ -83,22 +63,36 @@ class Verbs(click.Group):
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         """Return the verbs in the order of the table."""
-        return list(VERBS)
+        return list(PLACES)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         """Return a verb's command, imported now."""
-        return load(VERBS[cmd_name][0]) if cmd_name in VERBS else None
+        return load(PLACES[cmd_name]) if cmd_name in PLACES else None
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """Return the verb that the words begin with; an unknown one is met with what is near."""
+        word = args[0]
+        if word not in PLACES and not word.startswith("-"):
+            near = get_close_matches(word, PLACES, n=2, cutoff=0.6)
+            near = [FORMER[word]] if word in FORMER else near
+            hint = f"did you mean {' or '.join(near)}?" if near else "see: raycert --help"
+            ctx.fail(f"no verb {word!r}; {hint}")
+        return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the verbs and what they do, importing none of them."""
-        with formatter.section("Verbs"):
-            formatter.write_dl([(verb, summary) for verb, (_, summary) in VERBS.items()])
+        for title, verbs in VERBS.items():
+            with formatter.section(title):
+                formatter.write_dl([(f"{verb:10}", text) for verb, (_, text) in verbs.items()])
 
 
-def load(target: str) -> click.Command:
-    """Return the command that `module:attribute` names."""
-    module, _, attribute = target.partition(":")
-    command: click.Command = getattr(import_module(module), attribute)
+def load(place: str) -> click.Command:
+    """Return the command at `module:function` of this chapter."""
+    module, _, function = place.partition(":")
+    found = import_module(f"raycert.oracle.commands.{module}")
+    command: click.Command = getattr(found, function or module)
     return command
 
 

@@ -9,10 +9,19 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from raycert.oracle.commands.asking import from_json, from_words, shape_options, words_given
-from raycert.oracle.commands.listing import BadInput, find, golden_option, precision_option, read
-from raycert.oracle.commands.output import check_writable
-from raycert.oracle.commands.progress import counting
-from raycert.oracle.commands.targeting import aim, limits, limits_options, stop
+from raycert.oracle.commands.options import (
+    BadInput,
+    aim,
+    check_writable,
+    counting,
+    find,
+    golden_option,
+    limits,
+    limits_options,
+    precision_option,
+    read,
+    stop,
+)
 
 if TYPE_CHECKING:
     from raycert.cases.formats import Format

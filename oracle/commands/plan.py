@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from raycert.oracle.commands.listing import BadInput
+from raycert.oracle.commands.options import BadInput
 from raycert.oracle.commands.scenes import ask, needs, read, scene_argument
 
 SHOWS = ("depth", "normal", "thickness", "count")
@@ -53,7 +53,7 @@ def plan(scene: str | None, **options: Any) -> None:
         return
     read_scene, name = read(scene, options["size"] or "320x240")
     from raycert.cases.scene import write_scene
-    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.commands.options import counting
 
     task = {"task": "plan", "show": options["show"], "repeats": options["repeats"]}
     with counting("timing") as advance:
@@ -96,7 +96,7 @@ def _costs(options: dict[str, Any]) -> None:
     """Print what crowds of more and more solids cost."""
     from raycert.cases.model import Refused
     from raycert.cases.scene import read_size
-    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.commands.options import counting
 
     words = (options["size"] or "640x480").lower().split("x")
     try:

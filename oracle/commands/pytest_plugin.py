@@ -26,14 +26,14 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from raycert.cases.levels import LEVELS, Level
+
 if TYPE_CHECKING:
     from raycert.oracle.certify.expectations import Expectations
     from raycert.oracle.certify.expected import Matched
     from raycert.oracle.certify.grading import Grade
     from raycert.oracle.certify.run import Plan, Prepared
-    from raycert.oracle.judge.levels import Level
 
-LEVELS = ("sound", "stable", "faithful", "exact")
 NAME = "raycert"
 EXPECTATIONS = "expectations"
 """The test for the entries of --raycert-expect that are about nothing."""

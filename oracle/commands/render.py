@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.listing import BadInput
-from raycert.oracle.commands.output import check_writable
+from raycert.oracle.commands.options import BadInput, check_writable
 from raycert.oracle.commands.scenes import Asked, needs, read, scene_argument, start, table
 
 if TYPE_CHECKING:
@@ -115,7 +114,7 @@ def _array(rows: list[list[float]]) -> Any:
 
 def _errors(scene: Scene, found: dict[str, Any]) -> list[list[float]]:
     """Return k of every pixel, row by row, judged in two processes."""
-    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.commands.options import counting
     from raycert.oracle.judge.pixels import every_row
 
     arrays = (found[name].tolist() for name in ("enter", "leave", "count"))

@@ -54,8 +54,7 @@ def speed(only: tuple[str, ...], quick: bool, seed: int, file: Path | None) -> N
 
 def measure(only: Sequence[str], quick: bool, seed: int, file: Path | None) -> None:
     """Run the sections named, all without one; print the tables, and write the rows to a file."""
-    from raycert.oracle.commands.output import check_writable
-    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.commands.options import check_writable, counting
     from raycert.oracle.measure.speed.clock import one_thread
 
     one_thread()

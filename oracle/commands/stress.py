@@ -71,8 +71,7 @@ Exit status: 0 done, 1 interrupted, 2 bad usage, 3 a client could not be run.
 @click.option("--workers", type=click.IntRange(min=1), default=2, show_default=True)
 def stress(**options: Any) -> None:
     """Set the error of many ways to answer rays against how stiff the problem is."""
-    from raycert.oracle.commands.output import check_writable
-    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.commands.options import check_writable, counting
     from raycert.oracle.measure.stress.run import Plan, causes_to_tell, measure, tell_causes
 
     sweeps = _sweeps(options["sweeps"])
@@ -109,7 +108,7 @@ def _sweeps(names: Sequence[str]) -> tuple[Sweep, ...]:
 def _methods(names: Sequence[str], clients: Sequence[str]) -> tuple[list[Method], list[str]]:
     """Return the methods to run, and notes on those that cannot."""
     from raycert.oracle.client.dialogue import Unusable
-    from raycert.oracle.commands.targeting import stop
+    from raycert.oracle.commands.options import stop
     from raycert.oracle.measure.methods.catalog import BY_NAME, METHODS, chosen, here
 
     for name in names:
@@ -126,7 +125,7 @@ def _methods(names: Sequence[str], clients: Sequence[str]) -> tuple[list[Method]
 
 def _meshes(report: Report) -> list[Sides]:
     """Return the errors of meshes, as far as the libraries are installed."""
-    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.commands.options import counting
     from raycert.oracle.measure.methods.catalog import SIDES
     from raycert.oracle.measure.stress.sagitta import CASTERS, curves
 

@@ -79,7 +79,7 @@ def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: P
 def _write_smoke(golden: Path, folder: Path) -> None:
     from raycert.cases.corpus import read_corpus, write_whole
     from raycert.cases.formats import FORMATS
-    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.commands.options import counting
     from raycert.oracle.zoo.catalog import FAULTS
     from raycert.oracle.zoo.cover import chosen
 
@@ -91,7 +91,7 @@ def _write_smoke(golden: Path, folder: Path) -> None:
 
 
 def _lines(corpus: Corpus, names: Sequence[str]) -> list[Line]:
-    from raycert.oracle.commands.progress import counting
+    from raycert.oracle.commands.options import counting
     from raycert.oracle.zoo.catalog import BY_NAME
     from raycert.oracle.zoo.matrix import Bench, line
 

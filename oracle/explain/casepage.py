@@ -9,6 +9,7 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
+from raycert.cases.levels import LEVELS
 from raycert.oracle.explain.casepicture import NAME, Said, closeups, lists, wholes
 from raycert.oracle.explain.casepicture import numbers as drawable
 from raycert.oracle.explain.derive import Derivation
@@ -16,7 +17,6 @@ from raycert.oracle.explain.form import Fact, Note, Step, Table, numbers, shorte
 from raycert.oracle.explain.one_case import Asked
 from raycert.oracle.explain.text import case_lines
 from raycert.oracle.judge.answer import First, YesNo
-from raycert.oracle.judge.levels import LEVELS
 from raycert.oracle.reports.template import render
 from raycert.oracle.reports.text import clean, number
 

@@ -7,12 +7,13 @@ from math import isinf, log2
 
 from raycert.cases.accept import Accept, Pairs
 from raycert.cases.formats import Format
+from raycert.cases.levels import LEVELS
 from raycert.cases.row import End, GoldenRow
 from raycert.oracle.exact.condition import kappa
 from raycert.oracle.exact.rounding import decimal
 from raycert.oracle.exact.surd import Surd
 from raycert.oracle.explain.form import Fact, Note, Step, brief, endpoint, numbers, shortest, tidy
-from raycert.oracle.judge.levels import LEVELS, Judge
+from raycert.oracle.judge.levels import Judge
 from raycert.oracle.zoo.textbook import textbook
 
 

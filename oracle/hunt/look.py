@@ -13,6 +13,7 @@ from math import inf
 from raycert.cases.accept import Accept
 from raycert.cases.case import Case, Family, Tier
 from raycert.cases.lattice import is_lattice
+from raycert.cases.levels import LEVELS, Level, upto
 from raycert.cases.model import (
     SOLIDS,
     HalfSpace,
@@ -33,7 +34,7 @@ from raycert.oracle.corpus.golden import golden_row
 from raycert.oracle.exact.faces import touch
 from raycert.oracle.judge.answer import Answer, First, Listed, answer
 from raycert.oracle.judge.decisive import decisive
-from raycert.oracle.judge.levels import LEVELS, Judge, Level
+from raycert.oracle.judge.levels import Judge
 from raycert.oracle.judge.moved import LAST_STEP
 from raycert.oracle.zoo.matrix import kind
 
@@ -160,7 +161,7 @@ class Looker:
     def _finer(self, scene: Scene, outcome: Outcome) -> Fault | None:
         """Return how an answer fails `faithful` or `exact`, where it is stable."""
         graded = grade(row(scene, self), outcome, self.hello)
-        for level in LEVELS[: LEVELS.index(self.asked.level) + 1]:
+        for level in upto(self.asked.level):
             if reason := graded.fault(level):
                 pairs, wanted = len(graded.answer or ()), len(graded.row.expected)
                 shape = "missed" if pairs < wanted else "phantom" if pairs > wanted else "wrong end"

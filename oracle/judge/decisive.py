@@ -12,8 +12,9 @@ stay where they are on both sides of the comparison. A row is decisive if
 
 from __future__ import annotations
 
+from raycert.cases.levels import LEVELS, Level
 from raycert.oracle.exact.intervals import Interval, Intervals, meets
-from raycert.oracle.judge.levels import LEVELS, LIMIT, MEASURES, Judge, Level
+from raycert.oracle.judge.levels import LIMIT, MEASURES, Judge
 from raycert.oracle.judge.moved import Step
 
 

@@ -11,11 +11,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from math import frexp, inf, isinf
-from typing import Literal
 
 from raycert.cases.accept import Accept, Numbers, Pairs, malformed
-from raycert.cases.case import Tier
 from raycert.cases.formats import Format
+from raycert.cases.levels import Level, Tier
 from raycert.cases.model import Intersection, Ray, Solid, Tree, leaves
 from raycert.oracle.exact.intervals import Intervals, contains, meets
 from raycert.oracle.exact.rounding import enclose, expected, nearest
@@ -23,9 +22,6 @@ from raycert.oracle.exact.surd import INFINITY, Surd, dyadic, sign_1
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.moved import LAST_STEP, Measure, Scene, Step, moved_leaf
 
-Level = Literal["sound", "stable", "faithful", "exact"]
-LEVELS: tuple[Level, ...] = ("sound", "stable", "faithful", "exact")
-"""From weak to strong; each includes the ones before it."""
 MEASURES: dict[Level, Measure] = {"sound": "squared", "stable": "strict"}
 Enclosures = tuple[tuple[tuple[float, float], tuple[float, float]], ...]
 """For each pair of a list, the two numbers that enclose each of its ends."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 from html import escape
 from typing import Any
 
-from raycert.oracle.judge.levels import LEVELS
+from raycert.cases.levels import LEVELS
 from raycert.oracle.reports.reading import (
     by_family,
     failing,

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from raycert.cases.levels import LEVELS
 from raycert.cases.table import PROBLEM_1, PROBLEM_2
-from raycert.oracle.judge.levels import LEVELS
 from raycert.oracle.reports.picture import pictures
 from raycert.oracle.reports.reading import (
     asked,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from raycert.oracle.judge.levels import LEVELS
+from raycert.cases.levels import upto
 from raycert.oracle.reports.text import SHORT, clean, count, intervals
 
 Json = dict[str, Any]
@@ -86,7 +86,7 @@ def subject(certificate: Json, most: int = SHORT) -> str:
 
 def levels_asked(certificate: Json) -> tuple[str, ...]:
     """Return the level asked for and those below it: the verdict is about these."""
-    return LEVELS[: LEVELS.index(certificate["asked"]["level"]) + 1]
+    return upto(certificate["asked"]["level"])
 
 
 def failing(certificate: Json) -> list[Json]:

@@ -8,7 +8,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from raycert.oracle.judge.levels import LEVELS
+from raycert.cases.levels import LEVELS
 from raycert.oracle.reports.reading import (
     failing,
     fault,

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
+from raycert.cases.levels import Level
 from raycert.cases.model import Ray, Solid
-from raycert.oracle.judge.levels import Level
 from raycert.oracle.zoo.lists import Pairs
 from raycert.oracle.zoo.tracer import BASE
 

@@ -15,8 +15,9 @@ from typing import Any
 from raycert.cases.accept import Numbers, Pairs
 from raycert.cases.corpus import Corpus
 from raycert.cases.formats import BINARY64, Format
+from raycert.cases.levels import Level
 from raycert.cases.row import GoldenRow
-from raycert.oracle.judge.levels import Judge, Level
+from raycert.oracle.judge.levels import Judge
 from raycert.oracle.zoo.fault import Fault, Intersect, Kind
 from raycert.oracle.zoo.tracer import BASE
 

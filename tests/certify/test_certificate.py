@@ -13,9 +13,9 @@ import made_certificates as made_up
 import pytest
 from made_certificates import Json, made, planted
 
+from raycert.cases.levels import LEVELS
 from raycert.cases.protocol import Hello
 from raycert.oracle.certify.environment import PACKAGES, environment, source_sha256, tool_sha256
-from raycert.oracle.judge.levels import LEVELS
 
 
 @cache

@@ -11,6 +11,7 @@ from click.testing import CliRunner
 
 from raycert import oracle
 from raycert.cases.corpus import Corpus, read_corpus
+from raycert.cases.levels import Level
 from raycert.cases.model import Ray, Solid, type_of
 from raycert.cases.protocol import Hello, Reply
 from raycert.cases.row import GoldenRow
@@ -18,7 +19,6 @@ from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.verdict import Touches, by_family, by_solid, verdict
 from raycert.oracle.client.process import Failure
 from raycert.oracle.commands.certify import certify
-from raycert.oracle.judge.levels import Level
 from raycert.oracle.zoo import sound
 from raycert.oracle.zoo.catalog import BY_NAME
 from raycert.reference.tracer import intersect

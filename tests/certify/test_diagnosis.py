@@ -14,12 +14,13 @@ import pytest
 from raycert.cases.accept import Numbers
 from raycert.cases.corpus import read_corpus
 from raycert.cases.formats import BINARY64
+from raycert.cases.levels import LEVELS
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify import diagnosis as diagnoses
 from raycert.oracle.certify.diagnosis import LEAST, SHARE, close, diagnose
 from raycert.oracle.certify.grading import Grade
 from raycert.oracle.judge.answer import Listed
-from raycert.oracle.judge.levels import LEVELS, Judge
+from raycert.oracle.judge.levels import Judge
 from raycert.oracle.zoo.catalog import FAULTS, SOUND
 from raycert.oracle.zoo.fault import Fault, Intersect
 from raycert.oracle.zoo.matrix import Bench, Outcome

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from raycert.cases.corpus import read_corpus
+from raycert.cases.levels import LEVELS, Level
 from raycert.cases.model import SOLIDS, type_of
 from raycert.cases.protocol import Hello, Reply
 from raycert.cases.row import GoldenRow
@@ -20,7 +21,6 @@ from raycert.oracle.certify.expectations import (
 )
 from raycert.oracle.certify.expected import Matched, match, record
 from raycert.oracle.certify.grading import Grade, grade
-from raycert.oracle.judge.levels import LEVELS, Level
 
 GOOD = """
 [[expect]]

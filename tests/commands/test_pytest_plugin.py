@@ -87,8 +87,8 @@ def test_without_a_target_nothing_is_loaded_and_nothing_done(tester: pytest.Pyte
 
         def test_nothing_is_loaded():
             ours = {n for n in sys.modules if n.partition(".")[0] == "raycert"}
-            assert ours == {"raycert", "raycert.oracle", "raycert.oracle.commands",
-                "raycert.oracle.commands.pytest_plugin"}
+            assert ours == {"raycert", "raycert.cases", "raycert.cases.levels", "raycert.oracle",
+                "raycert.oracle.commands", "raycert.oracle.commands.pytest_plugin"}
             assert not {"numpy", "sympy", "mpmath", "rich", "click"} & set(sys.modules)
         """
     )

@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 from junitparser import JUnitXml
 
-from raycert.oracle.commands.reporting import report
+from raycert.oracle.commands.certify import report
 from raycert.oracle.reports.write import WRITERS
 
 

@@ -9,6 +9,7 @@ import pytest
 from raycert.cases.flags import FLAGS
 from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
 from raycert.cases.forms import write_ray, write_solid
+from raycert.cases.levels import Level
 from raycert.cases.model import SOLIDS, types
 from raycert.cases.protocol import Hello, Pairs, Reply
 from raycert.cases.row import GoldenRow, read_row, write_row
@@ -16,7 +17,6 @@ from raycert.oracle.certify.grading import grade
 from raycert.oracle.certify.verdict import verdict
 from raycert.oracle.corpus.fresh import Fresh, fresh_cases, fresh_rows
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.judge.levels import Level
 from raycert.oracle.zoo.catalog import FAULTS
 from raycert.oracle.zoo.matrix import Bench
 from raycert.oracle.zoo.sound import SOUND

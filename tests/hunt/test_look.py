@@ -5,13 +5,13 @@ from math import inf
 import pytest
 
 from raycert.cases.corpus import read_corpus
+from raycert.cases.levels import LEVELS
 from raycert.cases.model import HalfSpace, Ray, Sphere, Union
 from raycert.cases.numbers import Scene
 from raycert.cases.protocol import Hello, Reply
 from raycert.oracle.certify.grading import grade
 from raycert.oracle.client.process import Failure
 from raycert.oracle.hunt.look import RIGHT, Asked, Looker
-from raycert.oracle.judge.levels import LEVELS
 from raycert.oracle.zoo.catalog import BY_NAME
 from raycert.oracle.zoo.matrix import Outcome
 from raycert.oracle.zoo.tracer import BASE

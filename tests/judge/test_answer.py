@@ -12,13 +12,13 @@ from hypothesis import strategies as st
 
 from raycert.cases.corpus import read_corpus
 from raycert.cases.hits import first
+from raycert.cases.levels import LEVELS
 from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello, Reply
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.verdict import Touches, verdict
 from raycert.oracle.judge.answer import First, YesNo
 from raycert.oracle.judge.hits import first_fault
-from raycert.oracle.judge.levels import LEVELS
 
 Lists = tuple[tuple[float, float], ...]
 

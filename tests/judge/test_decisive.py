@@ -8,6 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
+from raycert.cases.levels import LEVELS
 from raycert.cases.model import (
     Cylinder,
     Difference,
@@ -21,7 +22,7 @@ from raycert.cases.model import (
 )
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.decisive import decisive
-from raycert.oracle.judge.levels import LEVELS, Judge
+from raycert.oracle.judge.levels import Judge
 
 ALL = LEVELS
 FINER = ("faithful", "exact")

@@ -15,6 +15,7 @@ from mpmath import mp, mpf
 
 from raycert.cases.accept import malformed
 from raycert.cases.formats import BINARY32, BINARY64, Format
+from raycert.cases.levels import LEVELS
 from raycert.cases.model import (
     Cylinder,
     Difference,
@@ -31,7 +32,7 @@ from raycert.cases.model import (
 from raycert.oracle.exact.intervals import contains
 from raycert.oracle.exact.rounding import enclose, nearest
 from raycert.oracle.exact.surd import Surd, dyadic
-from raycert.oracle.judge.levels import LEVELS, LIMIT, MEASURES, Judge, is_convex
+from raycert.oracle.judge.levels import LIMIT, MEASURES, Judge, is_convex
 from raycert.oracle.judge.moved import LAST_STEP, Step
 
 Pairs = list[tuple[float, float]]

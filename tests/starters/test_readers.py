@@ -19,13 +19,14 @@ from click.testing import CliRunner
 from raycert.cases.accept import Numbers
 from raycert.cases.corpus import GOLDEN, Corpus, read_corpus
 from raycert.cases.formats import BINARY32
+from raycert.cases.levels import LEVELS
 from raycert.cases.protocol import TOUCHES, Hello, Reply, convention, encode, write_hello
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import Grade, grade, kept
 from raycert.oracle.certify.verdict import Touches, by_solid
 from raycert.oracle.commands.export import export
 from raycert.oracle.commands.harness import READERS, harness
-from raycert.oracle.judge.levels import LEVELS, Judge
+from raycert.oracle.judge.levels import Judge
 from raycert.oracle.zoo.catalog import FAULTS, SOUND
 from raycert.oracle.zoo.fault import Intersect
 from raycert.oracle.zoo.matrix import Outcome

@@ -1,0 +1,251 @@
+"""The options that verbs share, each spelled once, and what they stand for.
+
+    rows      golden_option precision_option family_option tier_option solid_option id_option;
+              `read(precision, golden)` and `find(corpus, id)` give the rows that they name
+    asked     level_option(default); `check_convention` refuses a word that is no convention
+    target    the argument's help is TARGETS; `aim(words)` is the target, `spelled(words)` its
+              words for a command line; limits_options, and `limits(options)` what they set
+    refusals  `stop(message)` ends with 3, `BadInput` with 2; `unknown` says which values come near
+    output    `check_writable` before the work, `write_text` after it, `counting` the progress
+              between; FILE and FOLDER are the types of what is written, KNOWN_* of what is read
+
+Another repeatable option is `repeatable("--method", "names", "Only this method")`. Nothing but
+click is loaded before a function is called.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+
+import click
+
+from raycert.cases.levels import LEVELS, TIERS, Level
+
+if TYPE_CHECKING:
+    from raycert.cases.corpus import Corpus
+    from raycert.cases.row import GoldenRow
+    from raycert.oracle.client.dialogue import Limits, Target
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+Decorator = Callable[[Function], Function]
+
+PRECISIONS = ("binary64", "binary32")
+FILE = click.Path(dir_okay=False, path_type=Path)
+FOLDER = click.Path(file_okay=False, path_type=Path)
+KNOWN_FILE = click.Path(exists=True, dir_okay=False, path_type=Path)
+KNOWN_FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)
+SECONDS = click.FloatRange(min=0.01, max=86400)
+
+
+class BadInput(click.ClickException):
+    """An input that is refused: exit 2, with what to do."""
+
+    exit_code = 2
+
+
+def stop(message: str) -> NoReturn:
+    """End with exit status 3: the target could not be run, or nothing was tested."""
+    click.echo(f"raycert: {message}", err=True)
+    raise SystemExit(3)
+
+
+def unknown(
+    what: str, value: str, known: Iterable[str], where: str = "", hint: str = ""
+) -> NoReturn:
+    """Stop: no such value, and which come near."""
+    from difflib import get_close_matches
+
+    names = sorted(set(known))
+    near = [name for name in names if value and value in name][:5]
+    near = near or get_close_matches(value, names, n=5, cutoff=0.5)
+    if near:
+        hint = f"near: {', '.join(near)}"
+    raise BadInput(
+        f"no {what} {value!r} {where}".rstrip() + f"; {hint or 'known: ' + ', '.join(names)}"
+    )
+
+
+def repeatable(name: str, field: str, text: str, **more: Any) -> Decorator[Any]:
+    """Return an option that may be given several times; `field` has all of its values."""
+    return click.option(name, field, multiple=True, help=f"{text} (repeatable).", **more)
+
+
+# Rows of the corpus.
+
+
+def _solids(_: click.Context, __: click.Parameter, names: tuple[str, ...]) -> tuple[str, ...]:
+    from raycert.cases.model import SOLIDS
+
+    if wrong := [name for name in names if name not in SOLIDS]:
+        raise click.BadParameter(f"{', '.join(wrong)}; known: {', '.join(SOLIDS)}")
+    return names
+
+
+family_option = repeatable("--family", "families", "Only this family")
+tier_option = repeatable("--tier", "tiers", "Only this tier", type=click.Choice(TIERS))
+solid_option = repeatable("--solid", "solids", "Only this solid type", callback=_solids)
+id_option = repeatable("--id", "ids", "Only this row")
+golden_option = click.option(
+    "--golden", type=KNOWN_FOLDER, help="Golden files to use instead of the installed ones."
+)
+precision_option = click.option(
+    "--precision",
+    type=click.Choice(PRECISIONS),
+    default="binary64",
+    show_default=True,
+    help="Number format of the rows.",
+)
+
+
+def read(precision: str, golden: Path | None) -> Corpus:
+    """Return the rows of a precision, or stop with what is wrong with the files."""
+    from raycert.cases.corpus import GOLDEN, BadCorpus, read_corpus
+
+    try:
+        return read_corpus(precision, golden or GOLDEN)
+    except BadCorpus as error:
+        raise BadInput(str(error)) from None
+
+
+def find(corpus: Corpus, id: str) -> GoldenRow:
+    """Return the row with an id, or stop with the ids that come near."""
+    row = corpus.row(id)
+    if row is None:
+        family = id.partition("/")[0]
+        families = {row.family for row in corpus.rows}
+        hint = f"--family {family}" if family in families else "--families"
+        known = (row.id for row in corpus.rows)
+        unknown("row", id, known, f"in {corpus.precision}", f"see: raycert list {hint}")
+    return row
+
+
+# What is asked of an answer.
+
+
+def level_option(default: Level, text: str | None = None) -> Decorator[Any]:
+    """Return `--level`, one of LEVELS."""
+    return click.option(
+        "--level", type=click.Choice(LEVELS), default=default, show_default=True, help=text
+    )
+
+
+def check_convention(text: str) -> None:
+    """Refuse `--convention` where it is none."""
+    from raycert.cases.protocol import BadLine, convention
+
+    try:
+        convention(text)
+    except BadLine as error:
+        raise click.BadParameter(str(error), param_hint="--convention") from None
+
+
+# The implementation that is asked.
+
+BUILT_IN = {
+    "oracle": ("-m", "raycert.oracle.commands.main", "serve", "oracle"),
+    "reference": ("-m", "raycert.reference"),
+}
+TARGETS = """\b
+TARGET is one of
+  reference, oracle       the built-in implementations
+  -- COMMAND ARGUMENT...  a program that speaks the line protocol
+  module:function         a Python callable: function(solid, ray) -> pairs
+  ./tracer.so             a shared library with the signature of raycert.h
+                          (raycert harness library --out DIR)
+"""
+
+
+def limits_options(function: Function) -> Function:
+    """Add the options for what an implementation may take."""
+    options = (
+        ("--hello-timeout", SECONDS, 10.0, "Seconds to the hello."),
+        ("--case-timeout", SECONDS, 5.0, "Seconds to an answer."),
+        ("--line-limit", click.IntRange(min=256), 1 << 20, "Bytes in a line."),
+    )
+    for name, kind, default, text in reversed(options):
+        option = click.option(name, type=kind, default=default, show_default=True, help=text)
+        function = option(function)
+    return function
+
+
+def limits(options: dict[str, Any]) -> Limits:
+    """Return the limits that the options set."""
+    from raycert.oracle.client.dialogue import Limits
+
+    return Limits(options["hello_timeout"], options["case_timeout"], options["line_limit"])
+
+
+def aim(words: tuple[str, ...]) -> Target:
+    """Return the target that the words name; end with exit status 3 where they name none."""
+    from raycert.oracle.client.dialogue import Unusable
+    from raycert.oracle.client.target import target
+
+    if len(words) == 1 and words[0] in BUILT_IN:
+        words = (sys.executable, *BUILT_IN[words[0]])
+    try:
+        return target(words)
+    except Unusable as error:
+        stop(str(error))
+
+
+def spelled(words: tuple[str, ...]) -> tuple[str, ...]:
+    """Return the words as a command line has to spell them: `--` before what may have options."""
+    return words if len(words) == 1 and not words[0].startswith("-") else ("--", *words)
+
+
+# What is written, and what is seen meanwhile.
+
+
+def check_writable(folder: Path, option: str) -> None:
+    """Make the folder if it is missing; refuse the option if no file can be written there."""
+    import tempfile
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise click.BadParameter(f"cannot write to {folder}: {error}", param_hint=option) from None
+
+
+def write_text(out: Path | str, text: str) -> None:
+    """Write a file, whole or not at all; `-` is standard output. What no UTF-8 has becomes `?`."""
+    from raycert.cases.corpus import write_whole
+
+    data = text.encode("utf-8", "replace")
+    if str(out) == "-":
+        click.echo(data, nl=False)
+    else:
+        write_whole(Path(out), data)
+
+
+@contextmanager
+def counting(verb: str, total: int | None = None) -> Iterator[Callable[..., None]]:
+    """Yield `advance(n=1)`: a bar on a terminal's standard error that goes when all is done."""
+    if not sys.stderr.isatty():
+        yield lambda n=1: None
+        return
+    from rich.console import Console
+    from rich.progress import (
+        BarColumn,
+        MofNCompleteColumn,
+        Progress,
+        TextColumn,
+        TimeElapsedColumn,
+        TimeRemainingColumn,
+    )
+
+    columns = [
+        TextColumn("{task.description}"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TimeRemainingColumn(),
+    ]
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task(verb, total=total)
+        yield lambda n=1: bar.advance(task, n)
