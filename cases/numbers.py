@@ -17,19 +17,19 @@ from raycert.cases.formats import Format
 from raycert.cases.model import FIELDS, Leaf, Ray, Refused, Solid, Tree, leaves
 
 
-class Scene(NamedTuple):
-    """A solid and a ray."""
+class Probe(NamedTuple):
+    """A solid and the ray that asks about it."""
 
     solid: Solid
     ray: Ray
 
 
-def numbers(scene: Scene) -> tuple[float, ...]:
-    """Return all numbers of a scene, in their order."""
+def numbers(probe: Probe) -> tuple[float, ...]:
+    """Return all numbers of a probe, in their order."""
     found: list[float] = []
-    for _, leaf in leaves(scene.solid):
+    for _, leaf in leaves(probe.solid):
         found += leaf_numbers(leaf)
-    return (*found, *scene.ray.origin, *scene.ray.direction)
+    return (*found, *probe.ray.origin, *probe.ray.direction)
 
 
 def leaf_numbers(leaf: Leaf) -> list[float]:
@@ -41,12 +41,12 @@ def leaf_numbers(leaf: Leaf) -> list[float]:
     return found
 
 
-def with_numbers(scene: Scene, values: Sequence[float]) -> Scene | None:
-    """Return the scene of the same shape with these numbers; None where they make no solid."""
+def with_numbers(probe: Probe, values: Sequence[float]) -> Probe | None:
+    """Return the probe of the same shape with these numbers; None where they make no solid."""
     rest = iter(values)
     try:
-        solid = _solid(scene.solid, rest)
-        return Scene(solid, Ray(_three(rest), _three(rest)))
+        solid = _solid(probe.solid, rest)
+        return Probe(solid, Ray(_three(rest), _three(rest)))
     except Refused:
         return None
 
@@ -66,11 +66,11 @@ def _three(rest: Iterator[float]) -> tuple[float, float, float]:
     return (x, y, z)
 
 
-def with_number(scene: Scene, slot: int, value: float) -> Scene | None:
-    """Return the scene with one number replaced; None where that makes no solid."""
-    values = list(numbers(scene))
+def with_number(probe: Probe, slot: int, value: float) -> Probe | None:
+    """Return the probe with one number replaced; None where that makes no solid."""
+    values = list(numbers(probe))
     values[slot] = value
-    return with_numbers(scene, values)
+    return with_numbers(probe, values)
 
 
 def usual(fmt: Format) -> int:
@@ -78,10 +78,10 @@ def usual(fmt: Format) -> int:
     return 150 if fmt.precision == 53 else 30
 
 
-def is_usual(scene: Scene, fmt: Format) -> bool:
+def is_usual(probe: Probe, fmt: Format) -> bool:
     """Tell whether no number is so large or small that a sound formula over- or underflows."""
     most = usual(fmt)
-    return all(not x or abs(frexp(x)[1]) <= most for x in numbers(scene))
+    return all(not x or abs(frexp(x)[1]) <= most for x in numbers(probe))
 
 
 def ordinal(x: float, fmt: Format) -> int:
@@ -110,8 +110,8 @@ def near(x: float, steps: int, fmt: Format) -> float:
     return at(ordinal(x, fmt) + steps, fmt)
 
 
-def between(one: Scene, other: Scene, part: int, of: int, fmt: Format) -> Scene | None:
-    """Return the scene part / of of the way between two of the same shape, by ordinals."""
+def between(one: Probe, other: Probe, part: int, of: int, fmt: Format) -> Probe | None:
+    """Return the probe part / of of the way between two of the same shape, by ordinals."""
     mixed = []
     for a, b in zip(numbers(one), numbers(other), strict=True):
         low, high = ordinal(a, fmt), ordinal(b, fmt)
@@ -119,6 +119,6 @@ def between(one: Scene, other: Scene, part: int, of: int, fmt: Format) -> Scene 
     return with_numbers(one, mixed)
 
 
-def rounded(scene: Scene, fmt: Format) -> Scene | None:
-    """Return the scene in numbers of the format, -0 as 0; None where that makes no solid."""
-    return with_numbers(scene, [fmt.nearest(x) + 0.0 for x in numbers(scene)])
+def rounded(probe: Probe, fmt: Format) -> Probe | None:
+    """Return the probe in numbers of the format, -0 as 0; None where that makes no solid."""
+    return with_numbers(probe, [fmt.nearest(x) + 0.0 for x in numbers(probe)])

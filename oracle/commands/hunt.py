@@ -195,7 +195,7 @@ def status(found: Hunt) -> str:
 
 def worst(found: Hunt) -> str:
     """Return the worst k, for people."""
-    return f"{found.worst.k:g}" if found.worst.scene else "<= 1"
+    return f"{found.worst.k:g}" if found.worst.probe else "<= 1"
 
 
 def _written(
@@ -231,11 +231,11 @@ def _print(
 
     for id, finding in findings.items():
         click.echo(f"{id}  {finding.fault.level} fails: {finding.cause}")
-        click.echo(f"  case     {case_line(finding.scene)}")
-        for scene in finding.before:
-            click.echo(f"  after    {case_line(scene)}")
+        click.echo(f"  case     {case_line(finding.probe)}")
+        for probe in finding.before:
+            click.echo(f"  after    {case_line(probe)}")
         click.echo(f"  answer   {answer_line(finding.outcome)}")
-        click.echo(f"  exact    {show(trace(*finding.scene).intervals)}")
+        click.echo(f"  exact    {show(trace(*finding.probe).intervals)}")
         click.echo(f"  because  {finding.fault.reason}")
         if not finding.repeats:
             click.echo("  It did not come again in a new process, so no row was written.")

@@ -39,7 +39,7 @@ from raycert.cases.formats import FORMATS, Format
 from raycert.cases.forms import write_ray, write_solid
 from raycert.cases.lattice import is_lattice
 from raycert.cases.model import Ray, Refused, Solid, leaves, type_of
-from raycert.cases.numbers import Scene, is_usual, numbers
+from raycert.cases.numbers import Probe, is_usual, numbers
 from raycert.cases.row import GoldenRow
 from raycert.oracle.corpus.golden import Contradiction, golden_files
 from raycert.oracle.exact.condition import condition
@@ -71,9 +71,9 @@ class Found:
     tier: Tier | None = None
 
     @property
-    def scene(self) -> Scene:
+    def probe(self) -> Probe:
         """Return the case as numbers."""
-        return Scene(self.solid, self.ray)
+        return Probe(self.solid, self.ray)
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,7 +153,7 @@ def sources(corpus: Path) -> tuple[Family, ...]:
 
 def tier(found: Found) -> Tier:
     """Return the tier of a case; stiff is a touch, and what takes half of the digits or more."""
-    if not is_usual(found.scene, found.format):
+    if not is_usual(found.probe, found.format):
         return "range"
     if is_lattice(found.solid, found.ray):
         return "lattice"
@@ -223,8 +223,8 @@ def _precisions(found: Found) -> tuple[str, ...]:
     """Return the formats in which to ask: the one it was found in, and those that fit as well."""
 
     def fits(fmt: Format) -> bool:
-        held = all(fmt.holds(x) for x in numbers(found.scene))
-        return held and is_usual(found.scene, fmt) == is_usual(found.scene, found.format)
+        held = all(fmt.holds(x) for x in numbers(found.probe))
+        return held and is_usual(found.probe, fmt) == is_usual(found.probe, found.format)
 
     return tuple(name for name, fmt in FORMATS.items() if fmt is found.format or fits(fmt))
 

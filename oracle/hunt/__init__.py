@@ -1,9 +1,9 @@
 """The search for cases that an implementation gets wrong: beyond the golden ones, and made simple.
 
-    scene      a case as a row of numbers: neighbours, what lies between two, what is usual
+    probe      a case as a row of numbers: neighbours, what lies between two, what is usual
     look       is an answer wrong on the level asked; cheap for the many that are right
     session    a target that stays open for batch after batch, whatever it does
-    placed     the same scene elsewhere, and in another size
+    placed     the same probe elsewhere, and in another size
     moves      from one case to others that are harder: walks to where the exact answer changes
     directed   the search that moves cases and keeps those with the largest errors
     drawn      the search that Hypothesis drives

@@ -20,7 +20,7 @@ from pathlib import Path
 
 import click
 
-from raycert.cases.numbers import Scene, numbers
+from raycert.cases.numbers import Probe, numbers
 from raycert.cases.protocol import Reply
 from raycert.oracle.client.inprocess import InProcess
 from raycert.oracle.hunt.executors import Here
@@ -51,12 +51,12 @@ class Trial:
     @property
     def is_small(self) -> bool:
         """Tell whether the case found has short numbers only."""
-        return self.finding is not None and longest(self.finding.scene) <= SMALL
+        return self.finding is not None and longest(self.finding.probe) <= SMALL
 
 
-def longest(scene: Scene) -> int:
-    """Return the most significant bits that a number of a scene has."""
-    return max((_bits(x) for x in numbers(scene)), default=0)
+def longest(probe: Probe) -> int:
+    """Return the most significant bits that a number of a probe has."""
+    return max((_bits(x) for x in numbers(probe)), default=0)
 
 
 def _bits(x: float) -> int:
@@ -71,14 +71,14 @@ def trial(fault: Fault, budget: Budget, seed: int = 0) -> Trial:
     job = Job(InProcess("callable", spec(fault.name)), asked=asked, seed=seed, golden=None)
     found = hunt(job, budget, Here(partial(work, job)))
     theirs = [finding for finding in found.findings.values() if is_theirs(finding, found.looker)]
-    findings = sorted(theirs, key=lambda finding: cost(finding.scene))
+    findings = sorted(theirs, key=lambda finding: cost(finding.probe))
     return Trial(fault, findings[0] if findings else None, found.tried, found.seconds)
 
 
 def is_theirs(finding: Finding, looker: Looker) -> bool:
     """Tell whether the tracer that the fault was planted in has the case right."""
-    base = Reply("", intervals=tuple(BASE(*finding.scene)))
-    return looker(finding.scene, base).fault is None
+    base = Reply("", intervals=tuple(BASE(*finding.probe)))
+    return looker(finding.probe, base).fault is None
 
 
 def trials(faults: Sequence[Fault], budget: Budget, seed: int = 0) -> Iterator[Trial]:
@@ -113,7 +113,7 @@ def line(tried: Trial) -> str:
     head = f"{tried.fault.name:<22} {tried.seconds:5.1f} s {tried.tried:>6} cases"
     if finding is None:
         return f"{head}  NOT FOUND"
-    return f"{head}  {longest(finding.scene):>2} bits  {finding.fault.level} {finding.cause}"
+    return f"{head}  {longest(finding.probe):>2} bits  {finding.fault.level} {finding.cause}"
 
 
 def form(tried: Trial) -> dict[str, object]:
@@ -122,7 +122,7 @@ def form(tried: Trial) -> dict[str, object]:
     found = finding and {
         "cause": str(finding.cause),
         "seconds": finding.after,
-        **case(finding.scene),
+        **case(finding.probe),
     }
     return {
         "fault": tried.fault.name,

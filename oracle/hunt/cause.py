@@ -11,7 +11,7 @@ import re
 from dataclasses import dataclass
 
 from raycert.cases.model import Solid, Tree, type_of
-from raycert.cases.numbers import Scene
+from raycert.cases.numbers import Probe
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.hunt.look import Fault
 
@@ -35,13 +35,13 @@ class Cause:
         return f"{self.kind} on {self.shape}{where}"
 
 
-def cause(scene: Scene, fault: Fault) -> Cause:
+def cause(probe: Probe, fault: Fault) -> Cause:
     """Return the cause of a failure, as far as it shows."""
     silent = fault.kind in SILENT
     words = re.sub(r"[^A-Za-z ]+", " ", fault.reason).split()[:4] if silent else []
     if fault.kind == UNREPEATED:
         return Cause(fault.level, fault.kind, " ".join(words), "any solid", ())
-    return Cause(fault.level, fault.kind, " ".join(words), shape(scene.solid), rows(scene))
+    return Cause(fault.level, fault.kind, " ".join(words), shape(probe.solid), rows(probe))
 
 
 def shape(solid: Solid) -> str:
@@ -51,7 +51,7 @@ def shape(solid: Solid) -> str:
     return type_of(solid)
 
 
-def rows(scene: Scene) -> tuple[str, ...]:
+def rows(probe: Probe) -> tuple[str, ...]:
     """Return the rows that the exact answer takes, each once, without paths and comparisons."""
-    names = (name.rpartition(":")[2] for name in trace(scene.solid, scene.ray).rows)
+    names = (name.rpartition(":")[2] for name in trace(probe.solid, probe.ray).rows)
     return tuple(sorted({name for name in names if not re.search("[<>=]", name)}))

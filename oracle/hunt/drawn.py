@@ -18,7 +18,7 @@ from math import log2
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from raycert.cases.numbers import Scene
+from raycert.cases.numbers import Probe
 from raycert.oracle.hunt.session import TimeUp
 from raycert.oracle.hunt.unit import Failing, Field, Spent, coarse
 
@@ -40,14 +40,14 @@ def drawn(place: Field) -> None:
 
     @_settings(place)  # above the seed, which takes the database away
     @seed(f"{place.job.seed} {place.unit.number}")
-    @given(_scenes(place))
+    @given(_probes(place))
     def search(drawn: Drawn) -> None:
         patience.check()
-        for scene, seen in place.look([drawn.scene]):
+        for probe, seen in place.look([drawn.probe]):
             target(_height(seen.k), label="log2 k")
             target(_height(1 + seen.ulps), label="log2 ulps")
             if seen.fault:
-                key = coarse(Failing(scene, seen.fault))
+                key = coarse(Failing(probe, seen.fault))
                 patience.found(key)
                 raise named(key)()
 
@@ -102,12 +102,12 @@ class Wrong(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """A scene. Hypothesis would take longer to spell it than to find it."""
+    """A probe. Hypothesis would take longer to spell it than to find it."""
 
-    scene: Scene
+    probe: Probe
 
     def __repr__(self) -> str:
-        return "a scene"
+        return "a probe"
 
 
 class Patience:
@@ -143,7 +143,7 @@ def _height(x: float) -> float:
     return log2(x) if x < 2.0**HIGHEST else HIGHEST
 
 
-def _scenes(place: Field) -> Any:
+def _probes(place: Field) -> Any:
     from hypothesis import strategies
 
     from raycert.cases.strategies import scenes
@@ -152,7 +152,7 @@ def _scenes(place: Field) -> Any:
 
     @strategies.composite
     def hidden(draw: Any) -> Drawn:
-        return Drawn(Scene(*draw(some)))
+        return Drawn(Probe(*draw(some)))
 
     return hidden()
 

@@ -17,7 +17,7 @@ from raycert.cases.case import Case, Family
 from raycert.cases.corpus import MANIFEST, encode_rows, manifest, read_manifest, write_whole
 from raycert.cases.formats import Format
 from raycert.cases.forms import write_ray, write_solid
-from raycert.cases.numbers import Scene
+from raycert.cases.numbers import Probe
 from raycert.cases.protocol import Reply
 from raycert.cases.row import GoldenRow
 from raycert.oracle.client.dialogue import Outcome
@@ -52,10 +52,10 @@ def rows(findings: dict[str, Finding], looker: Looker) -> list[GoldenRow]:
     for id, finding in findings.items():
         if not finding.repeats:
             continue
-        for i, scene in enumerate(finding.before, 1):
-            made.append(_row(f"{id}-before-{i}", "Is asked before the next row.", scene, looker))
+        for i, probe in enumerate(finding.before, 1):
+            made.append(_row(f"{id}-before-{i}", "Is asked before the next row.", probe, looker))
         why = f"A hunt found an answer here that fails: {_why(finding)}."
-        made.append(_row(id, why, finding.scene, looker))
+        made.append(_row(id, why, finding.probe, looker))
     return made
 
 
@@ -64,9 +64,9 @@ def _why(finding: Finding) -> str:
     return text.encode("ascii", "backslashreplace").decode()[:200]
 
 
-def _row(id: str, why: str, scene: Scene, looker: Looker) -> GoldenRow:
+def _row(id: str, why: str, probe: Probe, looker: Looker) -> GoldenRow:
     name, _, slug = id.partition("/")
-    asked = Case(slug, why, scene.solid, scene.ray, looker.tier(scene))
+    asked = Case(slug, why, probe.solid, probe.ray, looker.tier(probe))
     return golden_row(Family(name, "", lambda _: ()), asked, looker.hello.format, USUAL)
 
 
@@ -98,7 +98,7 @@ def form(found: Hunt, findings: dict[str, Finding], asked: Json) -> Json:
         "tried": found.tried,
         "seconds": round(found.seconds, 1),
         "ended": found.ended,
-        "worst": {"k": _number(worst.k), **(case(worst.scene) if worst.scene else {})},
+        "worst": {"k": _number(worst.k), **(case(worst.probe) if worst.probe else {})},
         "findings": [{"id": id, **_finding(finding)} for id, finding in findings.items()],
     }
 
@@ -113,15 +113,15 @@ def _finding(finding: Finding) -> Json:
         "answer": said(finding.outcome),
         "repeats": finding.repeats,
         "seconds": round(finding.after, 1),
-        **case(finding.scene),
-        "before": [case(scene) for scene in finding.before],
+        **case(finding.probe),
+        "before": [case(probe) for probe in finding.before],
         "found_as": case(finding.first),
     }
 
 
-def case_line(scene: Scene) -> str:
-    """Return a scene as a line of the protocol, without an id."""
-    return json.dumps(case(scene))
+def case_line(probe: Probe) -> str:
+    """Return a probe as a line of the protocol, without an id."""
+    return json.dumps(case(probe))
 
 
 def answer_line(outcome: Outcome) -> str:
@@ -129,9 +129,9 @@ def answer_line(outcome: Outcome) -> str:
     return json.dumps(said(outcome))
 
 
-def case(scene: Scene) -> Json:
-    """Return a scene as in a line of the protocol."""
-    return {"solid": write_solid(scene.solid), "ray": write_ray(scene.ray)}
+def case(probe: Probe) -> Json:
+    """Return a probe as in a line of the protocol."""
+    return {"solid": write_solid(probe.solid), "ray": write_ray(probe.ray)}
 
 
 def said(outcome: Outcome) -> Any:

@@ -24,7 +24,7 @@ from raycert.cases.model import (
     leaves,
     types,
 )
-from raycert.cases.numbers import Scene, is_usual
+from raycert.cases.numbers import Probe, is_usual
 from raycert.cases.protocol import Hello, Reply, convention
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import grade
@@ -83,32 +83,32 @@ class Looker:
     asked: Asked
     solids: tuple[str, ...] = tuple(SOLIDS)
 
-    def tier(self, scene: Scene) -> Tier:
-        """Return the tier of a scene; the lattice's is only for a convention that is asked for."""
-        if not is_usual(scene, self.hello.format):
+    def tier(self, probe: Probe) -> Tier:
+        """Return the tier of a probe; the lattice's is only for a convention that is asked for."""
+        if not is_usual(probe, self.hello.format):
             return "range"
-        on_lattice = self.asked.convention is not None and is_lattice(scene.solid, scene.ray)
+        on_lattice = self.asked.convention is not None and is_lattice(probe.solid, probe.ray)
         return "lattice" if on_lattice else "generic"
 
-    def wants(self, scene: Scene) -> bool:
-        """Tell whether a scene is asked: its types are declared and wanted, its numbers usual."""
-        names = types(scene.solid)
+    def wants(self, probe: Probe) -> bool:
+        """Tell whether a probe is asked: its types are declared and wanted, its numbers usual."""
+        names = types(probe.solid)
         if not names <= {*self.solids} & {*self.hello.solids}:
             return False
-        return self.asked.far or is_usual(scene, self.hello.format)
+        return self.asked.far or is_usual(probe, self.hello.format)
 
-    def judge(self, scene: Scene) -> Judge:
-        """Return the judge of a scene."""
+    def judge(self, probe: Probe) -> Judge:
+        """Return the judge of a probe."""
         fmt, tolerance = self.hello.format, self.hello.tolerance
-        return Judge(scene.solid, scene.ray, fmt, self.tier(scene), tolerance)
+        return Judge(probe.solid, probe.ray, fmt, self.tier(probe), tolerance)
 
-    def __call__(self, scene: Scene, outcome: Outcome) -> Seen:
+    def __call__(self, probe: Probe, outcome: Outcome) -> Seen:
         """Return what comes of a look at an answer."""
         silent = _silence(outcome)
         if silent:
             return Seen(silent, inf)
         assert isinstance(outcome, Reply)
-        said, judge = answer(outcome, self.hello), self.judge(scene)
+        said, judge = answer(outcome, self.hello), self.judge(probe)
         if isinstance(said, Listed) and said.pairs == judge.expected:
             return RIGHT if self.asked.convention is None else Seen(self._unkept(said, judge))
         malformed = said.malformed(judge)
@@ -117,11 +117,11 @@ class Looker:
         if unkept := self._unkept(said, judge):
             return Seen(unkept)
         if said.is_faithful(judge.expected, judge.enclosures) is None:
-            return Seen(self._finer(scene, outcome)) if self.asked.level == "exact" else RIGHT
+            return Seen(self._finer(probe, outcome)) if self.asked.level == "exact" else RIGHT
         k = coarse_k(said, judge)
         fault = self._gross(said, judge)
         if fault is None and LEVELS.index(self.asked.level) > LEVELS.index("stable"):
-            fault = self._finer(scene, outcome)
+            fault = self._finer(probe, outcome)
         return Seen(fault, k, said.forward_error(judge))
 
     def _unkept(self, said: Answer, judge: Judge) -> Fault | None:
@@ -158,9 +158,9 @@ class Looker:
                 return Fault(level, how(said, accept), reason)
         return None
 
-    def _finer(self, scene: Scene, outcome: Outcome) -> Fault | None:
+    def _finer(self, probe: Probe, outcome: Outcome) -> Fault | None:
         """Return how an answer fails `faithful` or `exact`, where it is stable."""
-        graded = grade(row(scene, self), outcome, self.hello)
+        graded = grade(row(probe, self), outcome, self.hello)
         for level in upto(self.asked.level):
             if reason := graded.fault(level):
                 pairs, wanted = len(graded.answer or ()), len(graded.row.expected)
@@ -168,19 +168,19 @@ class Looker:
                 return Fault(level, shape, reason)
         return None
 
-    def true_k(self, scene: Scene, outcome: Outcome) -> float:
-        """Return the strict backward error of an answer; 0 where the scene does not decide."""
+    def true_k(self, probe: Probe, outcome: Outcome) -> float:
+        """Return the strict backward error of an answer; 0 where the probe does not decide."""
         if not isinstance(outcome, Reply) or _silence(outcome):
             return inf
-        judge = self.judge(scene)
+        judge = self.judge(probe)
         if "stable" not in deciding(judge):
             return 0.0
         return answer(outcome, self.hello).backward_error(judge, "strict")
 
 
-def row(scene: Scene, looker: Looker) -> GoldenRow:
-    """Return the golden row of a scene, without witnesses."""
-    case = Case("case", "A case of a hunt.", scene.solid, scene.ray, looker.tier(scene))
+def row(probe: Probe, looker: Looker) -> GoldenRow:
+    """Return the golden row of a probe, without witnesses."""
+    case = Case("case", "A case of a hunt.", probe.solid, probe.ray, looker.tier(probe))
     return golden_row(Family("hunt", "", lambda _: ()), case, looker.hello.format)
 
 

@@ -1,6 +1,6 @@
 """From one case to harder ones: the moves of the directed search.
 
-A move takes a scene and dice, and returns scenes of numbers of the format, in any number. Most are
+A move takes a probe and dice, and returns probes of numbers of the format, in any number. Most are
 ladders: steps that grow by powers of two, since nobody knows at which size a formula gives way.
 `walk` looks for a place where the exact answer changes its form, a double root, a rim, faces
 that coincide, and returns what lies on both sides of it, ever nearer.
@@ -31,7 +31,7 @@ from raycert.cases.model import (
     leaves,
 )
 from raycert.cases.numbers import (
-    Scene,
+    Probe,
     at,
     is_usual,
     near,
@@ -46,7 +46,7 @@ from raycert.oracle.exact.trace import trace
 from raycert.oracle.hunt.placed import axis_of, change, kept, moved, plus, scaled
 
 T = TypeVar("T")
-Move = Callable[[Scene, Dice, Format], list[Scene]]
+Move = Callable[[Probe, Dice, Format], list[Probe]]
 Form = tuple[tuple[str, ...], int]
 
 
@@ -55,26 +55,26 @@ def pick(dice: Dice, items: Sequence[T]) -> T:
     return items[dice.integer(0, len(items) - 1)]
 
 
-def form(scene: Scene) -> Form:
+def form(probe: Probe) -> Form:
     """Return the form of the exact answer: the rows taken, with comparisons, and how many pairs."""
-    answer = trace(scene.solid, scene.ray)
+    answer = trace(probe.solid, probe.ray)
     return answer.rows, len(answer.intervals)
 
 
-def walk(scene: Scene, dice: Dice, fmt: Format) -> list[Scene]:
+def walk(probe: Probe, dice: Dice, fmt: Format) -> list[Probe]:
     """Move one number until the answer changes its form; return both sides, ever nearer."""
-    values = numbers(scene)
+    values = numbers(probe)
     slot = dice.integer(0, len(values) - 1)
     x = values[slot]
     far = pick(dice, (0.0, -x, 2 * x, x + 1, x - 1, x / 2, pick(dice, values)))
-    goal = with_number(scene, slot, fmt.nearest(far))
-    if goal is None or form(goal) == form(scene):
+    goal = with_number(probe, slot, fmt.nearest(far))
+    if goal is None or form(goal) == form(probe):
         return kept([goal], fmt)
     low, high, path = ordinal(x, fmt), ordinal(fmt.nearest(far), fmt), [goal]
-    first = form(scene)
+    first = form(probe)
     while abs(high - low) > 1:
         middle = (low + high) // 2
-        step = with_number(scene, slot, at(middle, fmt))
+        step = with_number(probe, slot, at(middle, fmt))
         if step is None or not is_usual(step, fmt):
             break
         path.append(step)
@@ -85,49 +85,49 @@ def walk(scene: Scene, dice: Dice, fmt: Format) -> list[Scene]:
     return path[:2] + path[2:-4:5] + path[-4:]
 
 
-def nudge(scene: Scene, dice: Dice, fmt: Format) -> list[Scene]:
+def nudge(probe: Probe, dice: Dice, fmt: Format) -> list[Probe]:
     """Move single numbers by a few steps of the format."""
-    values, found = numbers(scene), []
+    values, found = numbers(probe), []
     for _ in range(6):
         slot = dice.integer(0, len(values) - 1)
         steps = pick(dice, (1, -1, 1, -1, 2, -2, 3, -5, 16, -1024))
-        found.append(with_number(scene, slot, near(values[slot], steps, fmt)))
+        found.append(with_number(probe, slot, near(values[slot], steps, fmt)))
     return kept(found, fmt)
 
 
-def simplify(scene: Scene, dice: Dice, fmt: Format) -> list[Scene]:
+def simplify(probe: Probe, dice: Dice, fmt: Format) -> list[Probe]:
     """Make numbers 0, whole, or equal: what random numbers never are."""
-    values, found = numbers(scene), [with_numbers(scene, [float(round(x)) for x in numbers(scene)])]
+    values, found = numbers(probe), [with_numbers(probe, [float(round(x)) for x in numbers(probe)])]
     for _ in range(6):
         slot = dice.integer(0, len(values) - 1)
         x = pick(dice, (0.0, 1.0, -1.0, float(round(values[slot])), pick(dice, values)))
-        found.append(with_number(scene, slot, x))
+        found.append(with_number(probe, slot, x))
     return kept(found, fmt)
 
 
-def retreat(scene: Scene, dice: Dice, fmt: Format) -> list[Scene]:
+def retreat(probe: Probe, dice: Dice, fmt: Format) -> list[Probe]:
     """Start farther back, farther on, inside, behind."""
-    ray = scene.ray
+    ray = probe.ray
     backs = (0.5, 1.0, -1.0, 3.0, ldexp(1.0, dice.integer(4, 45)), -ldexp(1.0, dice.integer(2, 30)))
     rays = [Ray(plus(ray.origin, ray.direction, -back), ray.direction) for back in backs]
-    return kept([Scene(scene.solid, other) for other in rays], fmt)
+    return kept([Probe(probe.solid, other) for other in rays], fmt)
 
 
-def settle(scene: Scene, dice: Dice, fmt: Format) -> list[Scene]:
+def settle(probe: Probe, dice: Dice, fmt: Format) -> list[Probe]:
     """Start on a face, and a little beside it."""
-    ends = [end for pair in trace(scene.solid, scene.ray).intervals for end in pair if end.finite]
-    found: list[Scene | None] = []
+    ends = [end for pair in trace(probe.solid, probe.ray).intervals for end in pair if end.finite]
+    found: list[Probe | None] = []
     for end in ends[:3]:
         t = _float(end)
         for beside in (0.0, ldexp(1.0, -dice.integer(4, 50)), -ldexp(1.0, -dice.integer(4, 50))):
-            origin = plus(scene.ray.origin, scene.ray.direction, t + beside)
-            found.append(Scene(scene.solid, Ray(origin, scene.ray.direction)))
+            origin = plus(probe.ray.origin, probe.ray.direction, t + beside)
+            found.append(Probe(probe.solid, Ray(origin, probe.ray.direction)))
     return kept(found, fmt)
 
 
-def turn(scene: Scene, dice: Dice, fmt: Format) -> list[Scene]:
+def turn(probe: Probe, dice: Dice, fmt: Format) -> list[Probe]:
     """Run along an axis, almost so, across it, the other way, or not at all."""
-    solid, ray = scene
+    solid, ray = probe
     w = axis_of(pick(dice, [leaf for _, leaf in leaves(solid)]))
     lean = ldexp(1.0, -dice.integer(2, 50))
     across = pick(dice, ((-w[1], w[0], 0.0), (0.0, -w[2], w[1]), (w[2], 0.0, -w[0])))
@@ -139,38 +139,38 @@ def turn(scene: Scene, dice: Dice, fmt: Format) -> list[Scene]:
         plus((0.0, 0.0, 0.0), ray.direction, -1.0),
         pick(dice, ((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, -1.0))),
     ]
-    return kept([Scene(solid, Ray(ray.origin, direction)) for direction in others], fmt)
+    return kept([Probe(solid, Ray(ray.origin, direction)) for direction in others], fmt)
 
 
-def rescale(scene: Scene, dice: Dice, fmt: Format) -> list[Scene]:
-    """Make the scene, the direction, or one radius much larger or smaller; move it far away."""
+def rescale(probe: Probe, dice: Dice, fmt: Format) -> list[Probe]:
+    """Make the probe, the direction, or one radius much larger or smaller; move it far away."""
     most = 40 if fmt.precision == 53 else 12
     n, size = dice.integer(3, most), pick(dice, (1, -1))
     factor, away = ldexp(1.0, size * n), ldexp(1.0, dice.integer(2, most))
     step = (away, -away, away / 2)
-    found: list[Scene | None] = [
-        scaled(scene, factor),
-        scaled(scene, factor, of_direction=True),
-        moved(scene, step),
-        _thinner(scene, dice, factor),
+    found: list[Probe | None] = [
+        scaled(probe, factor),
+        scaled(probe, factor, of_direction=True),
+        moved(probe, step),
+        _thinner(probe, dice, factor),
     ]
     return kept(found, fmt)
 
 
-def overflow(scene: Scene, dice: Dice, fmt: Format) -> list[Scene]:
+def overflow(probe: Probe, dice: Dice, fmt: Format) -> list[Probe]:
     """Make all so large or small that a formula over- or underflows: cases of the range tier."""
     most = fmt.overflow - 30
     n = pick(dice, (dice.integer(most // 4, most), -dice.integer(most // 4, -fmt.least - 8)))
     factor = ldexp(1.0, n)
-    return kept([scaled(scene, factor), scaled(scene, factor, of_direction=True)], fmt)
+    return kept([scaled(probe, factor), scaled(probe, factor, of_direction=True)], fmt)
 
 
-def build(scene: Scene, dice: Dice, fmt: Format) -> list[Scene]:
+def build(probe: Probe, dice: Dice, fmt: Format) -> list[Probe]:
     """Make Booleans of a solid with itself, beside itself, and with what shares a face with it."""
-    solid, ray = scene
+    solid, ray = probe
     leaf = pick(dice, [leaf for _, leaf in leaves(solid)])
     w = axis_of(leaf)
-    beside = moved(Scene(solid, ray), w)
+    beside = moved(Probe(solid, ray), w)
     base: Vector | None = getattr(leaf, "point", getattr(leaf, "q", None))
     other: Solid = HalfSpace(base, w) if base else Sphere(ray.origin, 1.0)
     parts = [solid, beside.solid if beside else solid, other]
@@ -180,10 +180,10 @@ def build(scene: Scene, dice: Dice, fmt: Format) -> list[Scene]:
         Difference((solid, other)),
         Union((solid, parts[1], other)),
     ]
-    return kept([Scene(tree, ray) for tree in trees], fmt) if _size(solid) <= 4 else []
+    return kept([Probe(tree, ray) for tree in trees], fmt) if _size(solid) <= 4 else []
 
 
-def on_lattice(dice: Dice) -> Scene:
+def on_lattice(dice: Dice) -> Probe:
     """Return a leaf and a ray of the lattice, drawn anew: touches of every kind are common."""
     p, origin = _whole(dice), _whole(dice)
     w, radius = _along(dice), float(dice.integer(1, 2))
@@ -195,7 +195,7 @@ def on_lattice(dice: Dice) -> Scene:
         InfiniteCylinder(p, q, radius),
         Cylinder(p, q, radius),
     )
-    return Scene(pick(dice, choice), Ray(origin, _along(dice)))
+    return Probe(pick(dice, choice), Ray(origin, _along(dice)))
 
 
 def _whole(dice: Dice) -> Vector:
@@ -217,8 +217,8 @@ MOVES: tuple[Move, ...] = (
 )  # fmt: skip
 
 
-def _thinner(scene: Scene, dice: Dice, factor: float) -> Scene | None:
-    """Return the scene with radii, or lengths along the axes, times a factor."""
+def _thinner(probe: Probe, dice: Dice, factor: float) -> Probe | None:
+    """Return the probe with radii, or lengths along the axes, times a factor."""
     radii = dice.integer(0, 1)
 
     def leaf(part: Any) -> Any:
@@ -228,8 +228,8 @@ def _thinner(scene: Scene, dice: Dice, factor: float) -> Scene | None:
             return replace(part, q=plus(part.p, plus(part.q, part.p, -1.0), factor))
         return part
 
-    solid = change(scene.solid, leaf)
-    return Scene(solid, scene.ray) if solid else None
+    solid = change(probe.solid, leaf)
+    return Probe(solid, probe.ray) if solid else None
 
 
 def _size(solid: Solid) -> int:

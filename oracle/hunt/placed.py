@@ -1,4 +1,4 @@
-"""The same scene elsewhere, in another size, with other leaves; in doubles, rounded."""
+"""The same probe elsewhere, in another size, with other leaves; in doubles, rounded."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from raycert.cases.model import (
     Union,
     Vector,
 )
-from raycert.cases.numbers import Scene, rounded
+from raycert.cases.numbers import Probe, rounded
 
 
-def kept(found: Iterable[Scene | None], fmt: Format) -> list[Scene]:
-    """Return the scenes there are, in numbers of the format."""
-    exact = [rounded(scene, fmt) for scene in found if scene is not None]
-    return [scene for scene in exact if scene is not None]
+def kept(found: Iterable[Probe | None], fmt: Format) -> list[Probe]:
+    """Return the probes there are, in numbers of the format."""
+    exact = [rounded(probe, fmt) for probe in found if probe is not None]
+    return [probe for probe in exact if probe is not None]
 
 
 def plus(a: Vector, b: Vector, factor: float = 1.0) -> Vector:
@@ -58,19 +58,19 @@ def change(solid: Solid, leaf_change: Callable[[Any], Any]) -> Solid | None:
         return None
 
 
-def moved(scene: Scene, step: Vector) -> Scene | None:
-    """Return the scene moved by a step; None where rounding makes that no solid."""
+def moved(probe: Probe, step: Vector) -> Probe | None:
+    """Return the probe moved by a step; None where rounding makes that no solid."""
 
     def leaf(part: Any) -> Any:
         names = [name for name in ("point", "center", "p", "q") if hasattr(part, name)]
         return replace(part, **{name: plus(getattr(part, name), step) for name in names})
 
-    solid, ray = change(scene.solid, leaf), scene.ray
-    return Scene(solid, Ray(plus(ray.origin, step), ray.direction)) if solid else None
+    solid, ray = change(probe.solid, leaf), probe.ray
+    return Probe(solid, Ray(plus(ray.origin, step), ray.direction)) if solid else None
 
 
-def scaled(scene: Scene, factor: float, of_direction: bool = False) -> Scene | None:
-    """Return the scene with all lengths, or the direction only, times a factor; or None."""
+def scaled(probe: Probe, factor: float, of_direction: bool = False) -> Probe | None:
+    """Return the probe with all lengths, or the direction only, times a factor; or None."""
     zero = (0.0, 0.0, 0.0)
 
     def leaf(part: Any) -> Any:
@@ -80,8 +80,8 @@ def scaled(scene: Scene, factor: float, of_direction: bool = False) -> Scene | N
             values["radius"] = part.radius * factor
         return replace(part, **values)
 
-    solid = scene.solid if of_direction else change(scene.solid, leaf)
-    origin, direction = scene.ray.origin, scene.ray.direction
+    solid = probe.solid if of_direction else change(probe.solid, leaf)
+    origin, direction = probe.ray.origin, probe.ray.direction
     try:
         if of_direction:
             ray = Ray(origin, plus(zero, direction, factor))
@@ -89,4 +89,4 @@ def scaled(scene: Scene, factor: float, of_direction: bool = False) -> Scene | N
             ray = Ray(plus(zero, origin, factor), direction)
     except Refused:
         return None
-    return Scene(solid, ray) if solid else None
+    return Probe(solid, ray) if solid else None

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from math import inf
 
-from raycert.cases.numbers import Scene
+from raycert.cases.numbers import Probe
 from raycert.oracle.client.dialogue import Outcome, Unusable
 from raycert.oracle.hunt.cause import UNREPEATED, Cause, cause
 from raycert.oracle.hunt.executors import Executor, Lost
@@ -50,12 +50,12 @@ class Finding:
     """
 
     cause: Cause
-    scene: Scene
+    probe: Probe
     fault: Fault
     outcome: Outcome
-    first: Scene
+    first: Probe
     k: float
-    before: tuple[Scene, ...] = ()
+    before: tuple[Probe, ...] = ()
     repeats: bool = True
     after: float = 0.0
 
@@ -192,7 +192,7 @@ class Catch:
         if finding is None:
             return
         old = self.found.findings.get(finding.cause)
-        if old is None or cost(finding.scene) < cost(old.scene):
+        if old is None or cost(finding.probe) < cost(old.probe):
             self.found.findings[finding.cause] = finding
 
     def _confirmed(self, failing: Failing) -> Finding | None:
@@ -200,27 +200,27 @@ class Catch:
         lost = any(known.kind == UNREPEATED for known in self.found.findings)
         for length in range(1 if lost else len(failing.before) + 1):
             before = failing.before[len(failing.before) - length :]
-            *_, outcome = self.session.fresh([*before, failing.scene])
-            seen = self.looker(failing.scene, outcome)
+            *_, outcome = self.session.fresh([*before, failing.probe])
+            seen = self.looker(failing.probe, outcome)
             if seen.fault:
                 return self._shrunk(failing, seen.fault, before)
         return self._unrepeated(failing, outcome)
 
-    def _shrunk(self, failing: Failing, fault: Fault, before: tuple[Scene, ...]) -> Finding | None:
+    def _shrunk(self, failing: Failing, fault: Fault, before: tuple[Probe, ...]) -> Finding | None:
         """Return the finding of a failure that was confirmed; None if its cause is known."""
 
-        def fails(scenes: Sequence[Scene]) -> list[bool]:
+        def fails(probes: Sequence[Probe]) -> list[bool]:
             if time.monotonic() > self._clock.end + LINGER:
                 raise TimeUp
-            asked = [s for scene in scenes for s in (*before, scene)]
+            asked = [s for probe in probes for s in (*before, probe)]
             outcomes = self.session.ask(asked)[len(before) :: len(before) + 1]
-            return [self._same(s, o, fault) for s, o in zip(scenes, outcomes, strict=True)]
+            return [self._same(s, o, fault) for s, o in zip(probes, outcomes, strict=True)]
 
-        def is_known(scene: Scene) -> bool:
-            old = self.found.findings.get(cause(scene, fault))
-            return old is not None and cost(old.scene) <= cost(scene)
+        def is_known(probe: Probe) -> bool:
+            old = self.found.findings.get(cause(probe, fault))
+            return old is not None and cost(old.probe) <= cost(probe)
 
-        shrinker = Shrinker(failing.scene, fails, self.looker.hello.format)
+        shrinker = Shrinker(failing.probe, fails, self.looker.hello.format)
         try:
             shrinker.run(is_known)
         except (TimeUp, KeyboardInterrupt):
@@ -231,23 +231,23 @@ class Catch:
         return self._finished(shrinker.best, failing, fault, before)
 
     def _finished(
-        self, best: Scene, failing: Failing, fault: Fault, before: tuple[Scene, ...]
+        self, best: Probe, failing: Failing, fault: Fault, before: tuple[Probe, ...]
     ) -> Finding:
         """Return the finding, its simplest case asked once more of a new process."""
-        for scene in (best, failing.scene):
-            *_, outcome = self.session.fresh([*before, scene])
-            seen = self.looker(scene, outcome)
+        for probe in (best, failing.probe):
+            *_, outcome = self.session.fresh([*before, probe])
+            seen = self.looker(probe, outcome)
             if seen.fault:
-                return self._finding(failing, scene, seen.fault, before, outcome)
+                return self._finding(failing, probe, seen.fault, before, outcome)
         return self._unrepeated(failing, outcome)
 
     def _unrepeated(self, failing: Failing, outcome: Outcome) -> Finding:
         fault = replace(failing.fault, kind=UNREPEATED)
-        return self._finding(failing, failing.scene, fault, (), outcome, repeats=False)
+        return self._finding(failing, failing.probe, fault, (), outcome, repeats=False)
 
-    def _same(self, scene: Scene, outcome: Outcome, fault: Fault) -> bool:
+    def _same(self, probe: Probe, outcome: Outcome, fault: Fault) -> bool:
         """Tell whether a case fails in the same way, on the same level or a weaker one."""
-        seen = self.looker(scene, outcome).fault if self.looker.wants(scene) else None
+        seen = self.looker(probe, outcome).fault if self.looker.wants(probe) else None
         if seen is None or seen.kind != fault.kind:
             return False
         return seen.level == fault.level or (seen.level, fault.level) == ("sound", "stable")
@@ -255,13 +255,13 @@ class Catch:
     def _finding(
         self,
         failing: Failing,
-        scene: Scene,
+        probe: Probe,
         fault: Fault,
-        before: tuple[Scene, ...],
+        before: tuple[Probe, ...],
         outcome: Outcome,
         repeats: bool = True,
     ) -> Finding:
-        k = self.looker.true_k(scene, outcome)
+        k = self.looker.true_k(probe, outcome)
         after = time.monotonic() - self._began
-        key = cause(scene, fault)
-        return Finding(key, scene, fault, outcome, failing.scene, k, before, repeats, after)
+        key = cause(probe, fault)
+        return Finding(key, probe, fault, outcome, failing.probe, k, before, repeats, after)

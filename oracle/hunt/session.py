@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import inf
 
-from raycert.cases.numbers import Scene
+from raycert.cases.numbers import Probe
 from raycert.cases.protocol import Hello
 from raycert.oracle.client import harness
 from raycert.oracle.client.dialogue import (
@@ -69,19 +69,19 @@ class Session:
         """Return what the target declares. Raises `Unusable`."""
         return self._live().hello
 
-    def ask(self, scenes: Sequence[Scene]) -> list[Outcome]:
-        """Return the outcome of each scene, in order. Raises `Unusable` and `TimeUp`."""
-        questions = [Question(str(i), scene.solid, scene.ray) for i, scene in enumerate(scenes)]
+    def ask(self, probes: Sequence[Probe]) -> list[Outcome]:
+        """Return the outcome of each probe, in order. Raises `Unusable` and `TimeUp`."""
+        questions = [Question(str(i), probe.solid, probe.ray) for i, probe in enumerate(probes)]
         known: dict[str, Outcome] = {}
         while len(known) < len(questions):
             self.clock.check()
             self._stream([question for question in questions if question.id not in known], known)
         return [known[question.id] for question in questions]
 
-    def fresh(self, scenes: Sequence[Scene]) -> list[Outcome]:
-        """Return the outcomes of scenes that are the first that a new process is asked."""
+    def fresh(self, probes: Sequence[Probe]) -> list[Outcome]:
+        """Return the outcomes of probes that are the first that a new process is asked."""
         self.close()
-        return self.ask(scenes)
+        return self.ask(probes)
 
     def close(self) -> None:
         """Leave no process behind."""

@@ -30,7 +30,7 @@ from raycert.cases.model import (
     leaves,
     nodes,
 )
-from raycert.cases.numbers import Scene, numbers, with_number, with_numbers
+from raycert.cases.numbers import Probe, numbers, with_number, with_numbers
 from raycert.oracle.hunt.moves import pick
 from raycert.oracle.hunt.placed import axis_of, change, moved, plus, scaled
 
@@ -47,12 +47,12 @@ GRIDS = (0, -1, -2, -4, -8, -16, -24, -32, -40)
 SMALL = (0.0, 0.0, 0.0, 1.0, 1.0, -1.0, 2.0, -2.0, 3.0, -3.0)
 
 
-def cost(scene: Scene) -> Cost:
+def cost(probe: Probe) -> Cost:
     """Return how far from simple a case is."""
-    kinds = list(map(type, nodes(scene.solid)))
+    kinds = list(map(type, nodes(probe.solid)))
     faces = sum(FACES.get(kind, 0) for kind in kinds)
     count = sum(kind in FACES for kind in kinds)
-    return count, len(kinds), faces, sum(map(number_cost, numbers(scene)))
+    return count, len(kinds), faces, sum(map(number_cost, numbers(probe)))
 
 
 def number_cost(x: float) -> int:
@@ -69,10 +69,10 @@ def number_cost(x: float) -> int:
     return 3 * digits + twos + 2 * (bottom.bit_length() - 1) + (x < 0)
 
 
-def fewer_parts(scene: Scene) -> Iterator[Scene]:
-    """Yield the scene with a tree replaced by a part, a part dropped, a leaf by a simpler one."""
-    for solid in _fewer(scene.solid):
-        yield Scene(solid, scene.ray)
+def fewer_parts(probe: Probe) -> Iterator[Probe]:
+    """Yield the probe with a tree replaced by a part, a part dropped, a leaf by a simpler one."""
+    for solid in _fewer(probe.solid):
+        yield Probe(solid, probe.ray)
 
 
 def _fewer(solid: Solid) -> Iterator[Solid]:
@@ -90,53 +90,53 @@ def _fewer(solid: Solid) -> Iterator[Solid]:
             yield type(solid)((*before, other, *after))
 
 
-def as_wholes(scene: Scene, fmt: Format) -> Iterator[Scene | None]:
-    """Yield the scene moved, scaled, turned and rounded as a whole."""
-    yield from _placed(scene)
-    yield from _sized(scene)
-    yield from _aligned(scene)
-    values = numbers(scene)
+def as_wholes(probe: Probe, fmt: Format) -> Iterator[Probe | None]:
+    """Yield the probe moved, scaled, turned and rounded as a whole."""
+    yield from _placed(probe)
+    yield from _sized(probe)
+    yield from _aligned(probe)
+    values = numbers(probe)
     for grid in GRIDS:
-        yield with_numbers(scene, [on_grid(x, grid) for x in values])
+        yield with_numbers(probe, [on_grid(x, grid) for x in values])
     for bits in BITS:
-        yield with_numbers(scene, [to_bits(x, bits) for x in values])
+        yield with_numbers(probe, [to_bits(x, bits) for x in values])
     for order in ((1, 2, 0), (2, 0, 1), (1, 0, 2)):
-        yield _each_vector(scene, lambda v, order=order: (v[order[0]], v[order[1]], v[order[2]]))
+        yield _each_vector(probe, lambda v, order=order: (v[order[0]], v[order[1]], v[order[2]]))
     for flip in ((-1, 1, 1), (1, -1, 1), (1, 1, -1)):
-        yield _each_vector(scene, lambda v, f=flip: (f[0] * v[0], f[1] * v[1], f[2] * v[2]))
+        yield _each_vector(probe, lambda v, f=flip: (f[0] * v[0], f[1] * v[1], f[2] * v[2]))
 
 
-def _placed(scene: Scene) -> Iterator[Scene | None]:
-    """Yield the scene with one of its points at the origin, and the ray started elsewhere."""
-    zero, ray = (0.0, 0.0, 0.0), scene.ray
-    places = [getattr(leaf, name, zero) for _, leaf in leaves(scene.solid) for name in ANCHORS]
+def _placed(probe: Probe) -> Iterator[Probe | None]:
+    """Yield the probe with one of its points at the origin, and the ray started elsewhere."""
+    zero, ray = (0.0, 0.0, 0.0), probe.ray
+    places = [getattr(leaf, name, zero) for _, leaf in leaves(probe.solid) for name in ANCHORS]
     for place in dict.fromkeys((*places, ray.origin)):
-        yield moved(scene, plus(zero, place, -1.0))
-        yield Scene(scene.solid, Ray(place, ray.direction))
+        yield moved(probe, plus(zero, place, -1.0))
+        yield Probe(probe.solid, Ray(place, ray.direction))
     for t in (-1.0, 1.0, 0.5, 2.0, 4.0, -2.0, 8.0):
-        yield Scene(scene.solid, Ray(plus(ray.origin, ray.direction, t), ray.direction))
+        yield Probe(probe.solid, Ray(plus(ray.origin, ray.direction, t), ray.direction))
 
 
 ANCHORS = ("p", "q", "center", "point")
 
 
-def _sized(scene: Scene) -> Iterator[Scene | None]:
-    """Yield the scene with a length or the direction of about 1, by a power of 2 or exactly."""
-    sizes = [abs(x) for x in numbers(Scene(scene.solid, scene.ray))[:-3] if x]
+def _sized(probe: Probe) -> Iterator[Probe | None]:
+    """Yield the probe with a length or the direction of about 1, by a power of 2 or exactly."""
+    sizes = [abs(x) for x in numbers(Probe(probe.solid, probe.ray))[:-3] if x]
     for size in dict.fromkeys((*(s for s in sizes), *(ldexp(0.5, frexp(s)[1]) for s in sizes))):
-        yield scaled(scene, 1 / size) if 1e-300 < size < 1e300 else None
-    speeds = [abs(x) for x in scene.ray.direction if x]
+        yield scaled(probe, 1 / size) if 1e-300 < size < 1e300 else None
+    speeds = [abs(x) for x in probe.ray.direction if x]
     for speed in dict.fromkeys((*speeds, *(ldexp(0.5, frexp(s)[1]) for s in speeds))):
-        yield scaled(scene, 1 / speed, of_direction=True) if 1e-300 < speed < 1e300 else None
+        yield scaled(probe, 1 / speed, of_direction=True) if 1e-300 < speed < 1e300 else None
 
 
-def _aligned(scene: Scene) -> Iterator[Scene | None]:
-    """Yield the scene turned so that an axis, or the direction, lies along z."""
-    axes = [axis_of(leaf) for _, leaf in leaves(scene.solid)]
-    for w in (*axes, scene.ray.direction):
+def _aligned(probe: Probe) -> Iterator[Probe | None]:
+    """Yield the probe turned so that an axis, or the direction, lies along z."""
+    axes = [axis_of(leaf) for _, leaf in leaves(probe.solid)]
+    for w in (*axes, probe.ray.direction):
         length = hypot(*w)
         if w[0] or w[1]:
-            yield _each_vector(scene, _turn((w[0] / length, w[1] / length, w[2] / length)))
+            yield _each_vector(probe, _turn((w[0] / length, w[1] / length, w[2] / length)))
 
 
 def _turn(n: Vector) -> Any:
@@ -149,41 +149,41 @@ def _turn(n: Vector) -> Any:
     return lambda v: tuple(sum(a * b for a, b in zip(row, v, strict=True)) for row in rows)
 
 
-def _each_vector(scene: Scene, turn: Any) -> Scene | None:
+def _each_vector(probe: Probe, turn: Any) -> Probe | None:
     def leaf(part: Any) -> Any:
         names = [name for name in (*ANCHORS, "normal") if hasattr(part, name)]
         return replace(part, **{name: turn(getattr(part, name)) for name in names})
 
-    solid = change(scene.solid, leaf)
+    solid = change(probe.solid, leaf)
     try:
-        ray = Ray(turn(scene.ray.origin), turn(scene.ray.direction))
+        ray = Ray(turn(probe.ray.origin), turn(probe.ray.direction))
     except Refused:
         return None
-    return Scene(solid, ray) if solid else None
+    return Probe(solid, ray) if solid else None
 
 
-def by_vectors(scene: Scene) -> Iterator[Scene | None]:
-    """Yield the scene with one vector along an axis, short, or 0; or an end near the other."""
+def by_vectors(probe: Probe) -> Iterator[Probe | None]:
+    """Yield the probe with one vector along an axis, short, or 0; or an end near the other."""
     units = ((0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
-    for start in _vectors(scene):
-        values = list(numbers(scene))
+    for start in _vectors(probe):
+        values = list(numbers(probe))
         old = values[start : start + 3]
         for new in (*units, (0.0, 0.0, 0.0), *(_only(old, i) for i in range(3))):
-            yield with_numbers(scene, [*values[:start], *new, *values[start + 3 :]])
+            yield with_numbers(probe, [*values[:start], *new, *values[start + 3 :]])
         if start >= 3:
             for unit in units:
                 new = plus(tuple(values[start - 3 : start]), unit)  # type: ignore[arg-type]
-                yield with_numbers(scene, [*values[:start], *new, *values[start + 3 :]])
+                yield with_numbers(probe, [*values[:start], *new, *values[start + 3 :]])
 
 
 def _only(v: list[float], i: int) -> tuple[float, ...]:
     return tuple(x if i == j else 0.0 for j, x in enumerate(v))
 
 
-def _vectors(scene: Scene) -> Iterator[int]:
-    """Yield where each vector of a scene begins among its numbers."""
+def _vectors(probe: Probe) -> Iterator[int]:
+    """Yield where each vector of a probe begins among its numbers."""
     start = 0
-    for _, leaf in leaves(scene.solid):
+    for _, leaf in leaves(probe.solid):
         for name in leaf.__slots__:
             wide = isinstance(getattr(leaf, name), tuple)
             if wide:
@@ -192,11 +192,11 @@ def _vectors(scene: Scene) -> Iterator[int]:
     yield from (start, start + 3)
 
 
-def by_number(scene: Scene, slot: int) -> Iterator[Scene | None]:
-    """Yield the scene with one number simpler."""
-    x = numbers(scene)[slot]
+def by_number(probe: Probe, slot: int) -> Iterator[Probe | None]:
+    """Yield the probe with one number simpler."""
+    x = numbers(probe)[slot]
     if not x:
-        yield with_number(scene, slot, 0.0)
+        yield with_number(probe, slot, 0.0)
         return
     simpler = [0.0, 1.0, -1.0, 2.0, -x, float(round(x)), x / 2, *(to_bits(x, n) for n in BITS)]
     simpler += [x - 1 if x > 0 else x + 1, *(on_grid(x, grid) for grid in GRIDS)]
@@ -204,17 +204,17 @@ def by_number(scene: Scene, slot: int) -> Iterator[Scene | None]:
     simpler += [ldexp(x, -half), ldexp(x, -1 if half > 0 else 1), ldexp(x, -4 if half > 0 else 4)]
     limit = number_cost(x)
     for value in sorted({y for y in simpler if number_cost(y) < limit}, key=number_cost):
-        yield with_number(scene, slot, value)
+        yield with_number(probe, slot, value)
 
 
-def small(scene: Scene, dice: Dice) -> Scene | None:
-    """Return a scene of the same shape in small whole numbers, drawn anew.
+def small(probe: Probe, dice: Dice) -> Probe | None:
+    """Return a probe of the same shape in small whole numbers, drawn anew.
 
     In some, one number is by a little beside a whole one, or much larger or smaller.
     """
-    values = [pick(dice, SMALL) for _ in numbers(scene)]
+    values = [pick(dice, SMALL) for _ in numbers(probe)]
     radii = set(range(len(values)))
-    for start in _vectors(scene):
+    for start in _vectors(probe):
         radii -= {start, start + 1, start + 2}
     for slot in radii:
         values[slot] = pick(dice, (1.0, 1.0, 2.0))
@@ -224,7 +224,7 @@ def small(scene: Scene, dice: Dice) -> Scene | None:
             values[slot] += pick(dice, (1, -1)) * ldexp(1.0, -n)
         case 2:
             values[slot] = ldexp(values[slot], pick(dice, (n, -n)))
-    return with_numbers(scene, values)
+    return with_numbers(probe, values)
 
 
 def to_bits(x: float, bits: int) -> float:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 from raycert.cases.corpus import GOLDEN
 from raycert.cases.model import SOLIDS
-from raycert.cases.numbers import Scene
+from raycert.cases.numbers import Probe
 from raycert.oracle.client.dialogue import Limits, Outcome, Target
 from raycert.oracle.corpus.fresh import possible
 from raycert.oracle.hunt.look import Asked, Fault, Looker, Seen
@@ -54,9 +54,9 @@ class Unit:
 class Failing:
     """A case that the target got wrong, and what it was asked before."""
 
-    scene: Scene
+    probe: Probe
     fault: Fault
-    before: tuple[Scene, ...] = ()
+    before: tuple[Probe, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ class Worst:
     """The largest backward error among the cases that decide, and where; without one, at most 1."""
 
     k: float = 1.0
-    scene: Scene | None = None
+    probe: Probe | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +81,7 @@ class Done:
 def coarse(failing: Failing) -> tuple[str, str, str]:
     """Return what tells failures apart before they are made simple: level, kind, type of solid."""
     fault = failing.fault
-    return fault.level, fault.kind, type(failing.scene.solid).__name__
+    return fault.level, fault.kind, type(failing.probe.solid).__name__
 
 
 class Spent(BaseException):
@@ -89,7 +89,7 @@ class Spent(BaseException):
 
 
 class Field:
-    """Where a unit works: scenes in, what was seen out; failures and the worst k are kept."""
+    """Where a unit works: probes in, what was seen out; failures and the worst k are kept."""
 
     def __init__(self, job: Job, unit: Unit) -> None:
         """Start the target. Raises `Unusable`."""
@@ -102,31 +102,31 @@ class Field:
         self.worst = Worst()
         self.failures: list[Failing] = []
         self._counts: dict[tuple[str, str, str], int] = {}
-        self._history: tuple[Scene, ...] = ()
+        self._history: tuple[Probe, ...] = ()
 
-    def look(self, scenes: list[Scene]) -> list[tuple[Scene, Seen]]:
-        """Ask the scenes that count. Raises `Spent` once no case is left, and `TimeUp`."""
+    def look(self, probes: list[Probe]) -> list[tuple[Probe, Seen]]:
+        """Ask the probes that count. Raises `Spent` once no case is left, and `TimeUp`."""
         self.clock.check()
         left = self.unit.cases - self.tried
         if left <= 0:
             raise Spent
-        wanted = [scene for scene in scenes if self.looker.wants(scene)][:left]
+        wanted = [probe for probe in probes if self.looker.wants(probe)][:left]
         outcomes = self.session.ask(wanted) if wanted else []
         seen = []
-        for scene, outcome in zip(wanted, outcomes, strict=True):
+        for probe, outcome in zip(wanted, outcomes, strict=True):
             self.clock.check()
-            seen.append((scene, self._note(scene, outcome)))
+            seen.append((probe, self._note(probe, outcome)))
         return seen
 
-    def _note(self, scene: Scene, outcome: Outcome) -> Seen:
+    def _note(self, probe: Probe, outcome: Outcome) -> Seen:
         self.tried += 1
-        seen, before = self.looker(scene, outcome), self._history
-        self._history = (*before, scene)[-HISTORY:]
+        seen, before = self.looker(probe, outcome), self._history
+        self._history = (*before, probe)[-HISTORY:]
         if seen.fault:
-            self._keep(Failing(scene, seen.fault, before))
+            self._keep(Failing(probe, seen.fault, before))
         if seen.k > max(self.worst.k, 1.0) and (seen.k < inf or seen.fault):
-            k = self.looker.true_k(scene, outcome)
-            self.worst = Worst(k, scene) if k > self.worst.k else self.worst
+            k = self.looker.true_k(probe, outcome)
+            self.worst = Worst(k, probe) if k > self.worst.k else self.worst
         return seen
 
     def _keep(self, failing: Failing) -> None:

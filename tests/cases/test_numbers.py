@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 from raycert.cases.formats import BINARY32, BINARY64
 from raycert.cases.model import Cylinder, Ray, Sphere
 from raycert.cases.numbers import (
-    Scene,
+    Probe,
     at,
     between,
     is_usual,
@@ -19,19 +19,19 @@ from raycert.cases.numbers import (
 from raycert.cases.strategies import numbers as drawn
 from raycert.cases.strategies import scenes
 
-BALL = Scene(Sphere((0, 0, 0), 1), Ray((-3, 0, 0), (1, 0, 0)))
+BALL = Probe(Sphere((0, 0, 0), 1), Ray((-3, 0, 0), (1, 0, 0)))
 FORMATS = st.sampled_from((BINARY32, BINARY64))
 
 
 @given(scenes())
-def test_a_scene_is_its_numbers(scene):
-    whole = Scene(*scene)
+def test_a_probe_is_its_numbers(probe):
+    whole = Probe(*probe)
     assert with_numbers(whole, numbers(whole)) == whole
 
 
-def test_numbers_that_make_no_solid_make_no_scene():
+def test_numbers_that_make_no_solid_make_no_probe():
     assert with_number(BALL, 3, -1.0) is None
-    rod = Scene(Cylinder((0, 0, 0), (0, 0, 1), 1), BALL.ray)
+    rod = Probe(Cylinder((0, 0, 0), (0, 0, 1), 1), BALL.ray)
     assert with_number(rod, 5, 0.0) is None
     assert with_number(rod, 5, 2.0) is not None
 
@@ -50,7 +50,7 @@ def test_a_neighbour_of_nothing_is_not_the_least_number():
     assert near(1.0, -1, BINARY64) == 1 - 2.0**-53
 
 
-def test_what_lies_between_two_scenes_begins_and_ends_with_them():
+def test_what_lies_between_two_probes_begins_and_ends_with_them():
     other = with_number(BALL, 0, 2.0)
     assert between(BALL, other, 0, 16, BINARY64) == BALL
     assert between(BALL, other, 16, 16, BINARY64) == other

@@ -13,7 +13,7 @@ QUICK = ("no-clip", "tolerant-disc", "small-disc", "expanded", "tangents-dropped
 def test_a_fault_is_found_and_its_case_is_small(name):
     tried = trial(BY_NAME[name], Budget(cases=6 * UNIT, most=1, unit=UNIT))
     assert tried.finding, name
-    assert tried.is_small, tried.finding.scene
-    assert longest(tried.finding.scene) <= 12
+    assert tried.is_small, tried.finding.probe
+    assert longest(tried.finding.probe) <= 12
     assert name in line(tried)
     assert form(tried)["found"]

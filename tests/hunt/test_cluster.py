@@ -125,7 +125,7 @@ def test_a_hunt_on_a_cluster_that_loses_a_worker_finds_what_it_finds_here(cluste
     assert alone.findings
     assert list(shared.findings) == list(alone.findings)
     for cause, finding in shared.findings.items():
-        assert finding.scene == alone.findings[cause].scene
+        assert finding.probe == alone.findings[cause].probe
 
 
 def test_a_cluster_that_is_not_there_is_said(monkeypatch):

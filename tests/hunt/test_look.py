@@ -7,7 +7,7 @@ import pytest
 from raycert.cases.corpus import read_corpus
 from raycert.cases.levels import LEVELS
 from raycert.cases.model import HalfSpace, Ray, Sphere, Union
-from raycert.cases.numbers import Scene
+from raycert.cases.numbers import Probe
 from raycert.cases.protocol import Hello, Reply
 from raycert.oracle.certify.grading import grade
 from raycert.oracle.client.process import Failure
@@ -18,8 +18,8 @@ from raycert.oracle.zoo.tracer import BASE
 
 ROWS = [row for row in read_corpus().rows if row.tier in ("generic", "stiff")][::97]
 HELLO = Hello("test")
-TOUCHING = Scene(Sphere((0, 0, 0), 1), Ray((-3, 1, 0), (1, 0, 0)))
-BALL = Scene(Sphere((0, 0, 0), 1), Ray((-3, 0, 0), (1, 0, 0)))
+TOUCHING = Probe(Sphere((0, 0, 0), 1), Ray((-3, 1, 0), (1, 0, 0)))
+BALL = Probe(Sphere((0, 0, 0), 1), Ray((-3, 0, 0), (1, 0, 0)))
 FAULTS = ("no-clip", "tolerant-disc", "small-disc", "far-clip", "six-digits", "split", "expanded")
 
 
@@ -37,14 +37,14 @@ def test_a_look_agrees_with_the_grade(name, level):
         reply = answers(tracer, row)
         graded = grade(row, reply, HELLO)
         wanted = next((one for one in upto if graded.fault(one)), None)
-        fault = looker(Scene(row.solid, row.ray), reply).fault
+        fault = looker(Probe(row.solid, row.ray), reply).fault
         assert (fault and fault.level) == wanted, row.id
 
 
 def test_a_sound_tracer_shows_nothing_and_its_k_is_small():
     looker = Looker(HELLO, Asked())
     for row in ROWS:
-        seen = looker(Scene(row.solid, row.ray), answers(BASE, row))
+        seen = looker(Probe(row.solid, row.ray), answers(BASE, row))
         assert seen.fault is None
         assert seen.k <= 64
 
@@ -85,12 +85,12 @@ def test_first_hits_and_yes_or_no_are_looked_at_too(answers_, reply, kind):
 def test_where_nothing_has_a_size_a_touch_is_a_convention_too():
     nothing = Ray((0, 0, 0), (1, 0, 0))
     for solid in (Sphere((0, 0, 0), 0), HalfSpace((0, 0, 0), (0, 0, 1))):
-        for scene in (Scene(solid, nothing), Scene(Union((solid, solid)), nothing)):
-            assert Looker(HELLO, Asked())(scene, Reply("", intervals=())).fault is None
+        for probe in (Probe(solid, nothing), Probe(Union((solid, solid)), nothing)):
+            assert Looker(HELLO, Asked())(probe, Reply("", intervals=())).fault is None
 
 
 def test_only_declared_and_wanted_types_are_asked():
-    union = Scene(Union((BALL.solid, HalfSpace((0, 0, 0), (0, 0, 1)))), BALL.ray)
+    union = Probe(Union((BALL.solid, HalfSpace((0, 0, 0), (0, 0, 1)))), BALL.ray)
     assert Looker(HELLO, Asked()).wants(union)
     assert not Looker(Hello("test", solids=("sphere", "union")), Asked()).wants(union)
     assert not Looker(HELLO, Asked(), ("sphere", "union")).wants(union)

@@ -26,7 +26,7 @@ def here(name, budget=SMALL, **options):
 
 
 def found(result):
-    return [(f.cause, f.scene, f.fault, f.first, f.before) for f in result.findings.values()]
+    return [(f.cause, f.probe, f.fault, f.first, f.before) for f in result.findings.values()]
 
 
 def test_the_same_seed_finds_the_same_here_and_in_processes():
@@ -40,7 +40,7 @@ def test_causes_are_told_apart_and_simple():
     result = here("always-empty")
     causes = list(result.findings)
     assert len(causes) == len(set(causes)) >= 2
-    assert any(all(x in (-1, 0, 1) for x in numbers(f.scene)) for f in result.findings.values())
+    assert any(all(x in (-1, 0, 1) for x in numbers(f.probe)) for f in result.findings.values())
 
 
 class Impatient(Here):

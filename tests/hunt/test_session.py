@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from raycert.cases.model import Ray, Sphere
-from raycert.cases.numbers import Scene
+from raycert.cases.numbers import Probe
 from raycert.cases.protocol import Reply
 from raycert.oracle.client.dialogue import Limits, Unusable
 from raycert.oracle.client.inprocess import InProcess
@@ -15,7 +15,7 @@ from raycert.oracle.client.process import Failure
 from raycert.oracle.hunt.session import Clock, Session, TimeUp
 
 BALL = Sphere((0, 0, 0), 1)
-SCENES = [Scene(BALL, Ray((float(x), 0, 0), (1, 0, 0))) for x in (-3, 7, -2, 5, 7, -4)]
+SCENES = [Probe(BALL, Ray((float(x), 0, 0), (1, 0, 0))) for x in (-3, 7, -2, 5, 7, -4)]
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, Difference, HalfSpace, Ray, Sphere, Union, leaves
-from raycert.cases.numbers import Scene, numbers
+from raycert.cases.numbers import Probe, numbers
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.hunt.shrink import Shrinker
 from raycert.oracle.hunt.simple import cost, number_cost
@@ -10,19 +10,19 @@ from raycert.oracle.hunt.simple import cost, number_cost
 FAR = Ray((0.1, -0.7, 12.3), (0.3, 0.21, -1.77))
 BALL = Sphere((0.7, -0.3, 1.9), 1.234)
 ROD = Cylinder((1.1, 2.2, 3.3), (-1.2, 0.1, -2.7), 0.77)
-TREE = Scene(Difference((Union((ROD, BALL)), HalfSpace((0.1, 9.2, 0.3), (0.1, 0.9, 0.2)))), FAR)
+TREE = Probe(Difference((Union((ROD, BALL)), HalfSpace((0.1, 9.2, 0.3), (0.1, 0.9, 0.2)))), FAR)
 
 
-def shrunk(scene, fails, most=6000):
-    return Shrinker(scene, lambda scenes: [fails(s) for s in scenes], BINARY64, most).run()
+def shrunk(probe, fails, most=6000):
+    return Shrinker(probe, lambda probes: [fails(s) for s in probes], BINARY64, most).run()
 
 
-def has_a_ball(scene):
-    return any(isinstance(leaf, Sphere) for _, leaf in leaves(scene.solid))
+def has_a_ball(probe):
+    return any(isinstance(leaf, Sphere) for _, leaf in leaves(probe.solid))
 
 
-def is_crossed(scene):
-    found = trace(scene.solid, scene.ray).intervals
+def is_crossed(probe):
+    found = trace(probe.solid, probe.ray).intervals
     return bool(found) and found[0][0].sign() > 0
 
 
@@ -53,7 +53,7 @@ def test_a_shrink_that_is_broken_off_has_a_failing_case():
 
 
 def test_nothing_that_passes_is_taken():
-    assert shrunk(TREE, lambda scene: False) == TREE
+    assert shrunk(TREE, lambda probe: False) == TREE
 
 
 def test_the_cost_orders_numbers_as_people_do():

@@ -46,7 +46,7 @@ def test_the_time_ends_a_unit(number):
 def test_only_what_is_wanted_is_asked(number):
     job = replace(FAULTY, solids=("sphere",))
     failures = work(job, Unit(number, 400)).failures
-    assert {kind for failing in failures for kind in types(failing.scene.solid)} == {"sphere"}
+    assert {kind for failing in failures for kind in types(failing.probe.solid)} == {"sphere"}
 
 
 def test_only_trees_without_a_leaf_is_nothing_to_ask():
@@ -68,7 +68,7 @@ def test_the_reference_is_stable_in_a_few():
 
 def test_examples_are_kept_and_tried_first(tmp_path):
     job = Job(InProcess("callable", spec("always-all")), golden=None, seed=1)
-    assert work(job, Unit(1, 400)).failures[0].before, "the first scene drawn is no failure"
+    assert work(job, Unit(1, 400)).failures[0].before, "the first probe drawn is no failure"
     kept = replace(job, seed=0, examples=tmp_path / "examples")
     assert work(kept, Unit(1, 400)).failures
     assert any((tmp_path / "examples").iterdir())
