@@ -7,7 +7,6 @@ from math import isqrt
 
 import numpy as np
 import pytest
-from batch_rays import aligned, beside_ties, far, free, grazing, tilted, wrong
 
 from raycert.cases.model import InfiniteCylinder, Slab, Sphere
 from raycert.oracle.batch import decide, formulas
@@ -25,6 +24,7 @@ from raycert.oracle.batch.lanes import Lanes
 from raycert.oracle.batch.plan import Plan, plan
 from raycert.oracle.batch.vector import ALL, axis, heads, offset, speed
 from raycert.oracle.batch.vector import tilted as has_axis
+from shared.batch_rays import aligned, beside_ties, far, free, grazing, tilted, wrong
 
 Vector = tuple[Fraction, Fraction, Fraction]
 

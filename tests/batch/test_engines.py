@@ -8,7 +8,6 @@ import sys
 
 import numpy as np
 import pytest
-from batch_rays import FAMILIES, beside_ties, free
 
 from raycert.cases.formats import BINARY32, BINARY64, Format
 from raycert.cases.model import Sphere
@@ -18,6 +17,7 @@ from raycert.oracle.batch.plan import plan
 from raycert.oracle.batch.probe import probe
 from raycert.oracle.batch.trace import trace_batch
 from raycert.oracle.batch.trust import INPUT, WANTED, trustworthy, untrustworthy
+from shared.batch_rays import FAMILIES, beside_ties, free
 
 numba = pytest.importorskip("numba")
 RAYS = [[-3.0, 0.25, 0.5]], [[1.0, 0.0, 0.125]]

@@ -7,11 +7,11 @@ from math import isqrt
 
 import numpy as np
 import pytest
-from batch_rays import FAMILIES, wrong
 
 from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Slab, Sphere
 from raycert.oracle.batch.plan import BALL, CAPPED_BALL, CAPPED_WALL, PLANES, WALL, plan
 from raycert.oracle.batch.trace import trace_batch
+from shared.batch_rays import FAMILIES, wrong
 
 ORIGIN, X = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)
 TILTED = (1.0, 2.0, 2.0)

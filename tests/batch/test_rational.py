@@ -7,7 +7,6 @@ from math import nextafter
 
 import numpy as np
 import pytest
-from batch_rays import lattice, wrong
 
 from raycert.cases.formats import BINARY32, BINARY64
 from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Slab, Sphere
@@ -15,6 +14,7 @@ from raycert.oracle.batch.expansions import grown, single, vanishes
 from raycert.oracle.batch.lanes import KNOWN
 from raycert.oracle.batch.narrow import aside, narrowed
 from raycert.oracle.batch.trace import trace_batch
+from shared.batch_rays import lattice, wrong
 
 TINY = 2.0**-52
 ORIGIN = (0.0, 0.0, 0.0)

@@ -6,7 +6,6 @@ import math
 
 import numpy as np
 import pytest
-from batch_rays import FAMILIES, aligned, beside_ties, far, free, lattice, thin, wrong
 from hypothesis import given, settings
 
 from raycert.cases.corpus import read_corpus
@@ -14,6 +13,7 @@ from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
 from raycert.cases.model import Cylinder, Ray, Refused, Solid, Sphere
 from raycert.cases.strategies import scenes
 from raycert.oracle.batch.trace import trace_batch
+from shared.batch_rays import FAMILIES, aligned, beside_ties, far, free, lattice, thin, wrong
 
 
 @pytest.mark.parametrize("fmt", [BINARY64, BINARY32], ids=lambda fmt: fmt.name)

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from cases.test_row import CAN, RAYS, WRONG, fresh, made, parent, paths, same_kind
 from jsonschema import Draft202012Validator
 
 from raycert.cases import corpus
@@ -30,6 +29,7 @@ from raycert.cases.corpus import (
 )
 from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
 from raycert.cases.row import GoldenRow, read_row, write_row
+from shared.rows import CAN, RAYS, WRONG, fresh, made, parent, paths, same_kind
 
 SCHEMAS = Path(corpus.__file__).parent / "schemas"
 NAME = "binary64/hand.jsonl"

@@ -4,45 +4,20 @@ from __future__ import annotations
 
 import copy
 import json
-from collections.abc import Iterator
-from functools import cache
 from typing import Any
 
 import pytest
-from exact.test_laws import rays, solids
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from raycert.cases.case import Case, Family
 from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
-from raycert.cases.model import Cylinder, Ray, Refused, Solid
-from raycert.cases.row import GoldenRow, read_row, write_row
-from raycert.oracle.corpus.golden import golden_row
+from raycert.cases.model import Ray, Refused, Solid
+from raycert.cases.row import read_row, write_row
+from shared.grid import rays, solids
+from shared.rows import RAYS, WRONG, fresh, made, parent, paths, same_kind
 
-FAMILY = Family("hand", "Made by hand.", lambda fmt: ())
-CAN = Cylinder((0, 0, 0), (0, 0, 2), 1)
-RAYS = {
-    "rational": Ray((-3, 0, 1), (1, 0, 0)),
-    "irrational": Ray((-3, 0.5, 1), (1, 0, 0.125)),
-    "endless": Ray((0, 0, 1), (0, 0, 0)),
-    "miss": Ray((9, 0, 1), (1, 0, 0)),
-}
 KEYS = ("id", "why", "flags", "tier", "source", "solid", "ray", "rows", "condition", "decisive")
 KEYS += ("intervals", "expected", "accept")
-
-
-def made(solid: Solid, ray: Ray, fmt: Format = BINARY64) -> GoldenRow:
-    case = Case("slug", "A ray meets a solid.", solid, ray, "generic", ("tangent",))
-    return golden_row(FAMILY, case, fmt)
-
-
-@cache
-def form(name: str) -> str:
-    return json.dumps(write_row(made(CAN, RAYS[name]), BINARY64))
-
-
-def fresh(name: str = "irrational") -> dict[str, Any]:
-    return dict(json.loads(form(name)))
 
 
 @settings(deadline=None)
@@ -73,21 +48,6 @@ def test_what_is_written() -> None:
     assert fresh("miss")["intervals"] == fresh("miss")["expected"] == []
 
 
-def paths(form: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:
-    """Yield the way to every value in a JSON form."""
-    if path:
-        yield path
-    if isinstance(form, dict | list):
-        for key in form if isinstance(form, dict) else range(len(form)):
-            yield from paths(form[key], (*path, key))
-
-
-def parent(form: Any, path: tuple[Any, ...]) -> Any:
-    for key in path[:-1]:
-        form = form[key]
-    return form
-
-
 @pytest.mark.parametrize("name", RAYS)
 def test_a_row_without_any_one_of_its_fields_is_refused(name: str) -> None:
     whole = fresh(name)
@@ -97,9 +57,6 @@ def test_a_row_without_any_one_of_its_fields_is_refused(name: str) -> None:
             del parent(short, path)[path[-1]]
             with pytest.raises(Refused):
                 read_row(short, BINARY64)
-
-
-WRONG = [None, True, 7, 0.5, "x", "nan", [], ["x"], [7], {}, {"x": 1}, [["0x0.0p+0"]], ["ab"]]
 
 
 @pytest.mark.parametrize("name", RAYS)
@@ -114,32 +71,6 @@ def test_a_value_of_another_kind_is_refused_wherever_it_stands(name: str, wrong:
         parent(other, path)[path[-1]] = wrong
         with pytest.raises(Refused):
             read_row(other, BINARY64)
-
-
-TEXTS = {"id", "why", "source", "digits", "kind", "touch", "flags", "rows", "decisive", "faces"}
-LISTS = {"flags", "rows", "decisive", "faces", "intervals", "expected", "inner"}
-
-
-def same_kind(right: object, wrong: object, path: tuple[Any, ...]) -> bool:
-    """Tell whether a reader that does not know the answer cannot object."""
-    if json.dumps(right) == json.dumps(wrong):
-        return True
-    name = next(key for key in reversed(path) if isinstance(key, str))
-    if name in TEXTS and path[-1] in TEXTS | set(range(9)) and isinstance(right, str):
-        return isinstance(wrong, str)
-    if path[-1] in LISTS and wrong == []:
-        return True
-    if path[-1] in {"flags", "rows", "decisive", "faces"}:
-        return wrong in (["x"], ["ab"])
-    if path[-1] == "most":
-        return wrong == [7] and right == [1]
-    if name == "most":
-        return wrong == 7
-    if path[-1] == "condition":
-        return wrong is None or (wrong == 7 and wrong is not True)
-    if path[-1] == "touch":
-        return wrong is None or isinstance(wrong, str)
-    return False
 
 
 @pytest.mark.parametrize("where", [(), ("intervals", 0), ("intervals", 0, "enter"), ("accept",)])

@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 import jsonschema
-import made_certificates as made_up
 import pytest
-from made_certificates import Json, made, planted
 
+import shared.certificates as made_up
 from raycert.cases.levels import LEVELS
 from raycert.cases.protocol import Hello
 from raycert.oracle.certify.environment import PACKAGES, environment, source_sha256, tool_sha256
+from shared.certificates import Json, made, planted
 
 
 @cache

@@ -3,11 +3,11 @@
 import json
 from pathlib import Path
 
-import made_certificates as made_up
 import pytest
 from click.testing import CliRunner
 from junitparser import JUnitXml
 
+import shared.certificates as made_up
 from raycert.oracle.commands.certify import report
 from raycert.oracle.reports.write import WRITERS
 

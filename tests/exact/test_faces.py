@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from exact.test_laws import leaves, rays, solids
 from hypothesis import given
 
 from raycert.cases.model import (
@@ -23,6 +22,7 @@ from raycert.cases.model import (
 from raycert.oracle.exact.faces import place, touch
 from raycert.oracle.exact.surd import INFINITY, ZERO
 from raycert.oracle.exact.trace import trace
+from shared.grid import leaves, rays, solids
 
 CAN = Cylinder((0, 0, 0), (0, 0, 2), 1)
 TUBE = InfiniteCylinder((0, 0, 0), (0, 0, 2), 1)

@@ -5,10 +5,9 @@ from fractions import Fraction
 from math import inf
 from pathlib import Path
 
-import made_certificates as made_up
 import pytest
-from reports.test_reports_browser import probed
 
+import shared.certificates as made_up
 from raycert.cases.case import Case
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, HalfSpace, Intersection, Ray, Slab, Solid, Sphere
@@ -21,6 +20,7 @@ from raycert.oracle.explain.derive import Derivation, as_given, derive, given
 from raycert.oracle.explain.one_case import Asked
 from raycert.oracle.reports.plane import dot
 from raycert.oracle.reports.views import views
+from shared.browser import probed
 
 CAN = Cylinder((0.0, 0.0, 0.0), (0.0, 0.0, 2.0), 1.0)
 RAY = Ray((-3.0, 0.3, 0.2), (1.0, 0.0, 0.3))

@@ -3,11 +3,11 @@
 from functools import partial
 
 import pytest
-from hunted_work import deadly, deadly_once, easy, wrong
 
 from raycert.oracle.hunt.executors import ATTEMPTS, Here, Lost, Processes
 from raycert.oracle.hunt.ledger import Ledger
 from raycert.oracle.hunt.unit import Unit
+from shared.hunted_work import deadly, deadly_once, easy, wrong
 
 
 def collected(executor, count):

@@ -33,14 +33,14 @@ def check(outcomes, kind):
 
 
 def test_a_crash_is_pinned_and_all_else_is_answered(importable):
-    session = Session(InProcess("callable", "hunted_targets:crashing"), Limits())
+    session = Session(InProcess("callable", "shared.hunted_targets:crashing"), Limits())
     check(session.ask(SCENES), "crash")
     check(session.fresh(SCENES), "crash")
     session.close()
 
 
 def test_a_hang_is_pinned_and_all_else_is_answered(importable):
-    session = Session(InProcess("callable", "hunted_targets:hanging"), Limits(case=0.3))
+    session = Session(InProcess("callable", "shared.hunted_targets:hanging"), Limits(case=0.3))
     check(session.ask(SCENES), "hang")
     session.close()
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import pytest
-from exact.test_laws import leaves, rays, solids
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -23,6 +22,7 @@ from raycert.cases.model import (
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.decisive import decisive
 from raycert.oracle.judge.levels import Judge
+from shared.grid import leaves, rays, solids
 
 ALL = LEVELS
 FINER = ("faithful", "exact")

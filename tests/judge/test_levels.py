@@ -8,7 +8,6 @@ from itertools import combinations_with_replacement, pairwise, product
 from math import inf, isinf, nan, nextafter
 
 import pytest
-from exact.test_laws import leaves, rays, solids
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mpmath import mp, mpf
@@ -34,6 +33,7 @@ from raycert.oracle.exact.rounding import enclose, nearest
 from raycert.oracle.exact.surd import Surd, dyadic
 from raycert.oracle.judge.levels import LIMIT, MEASURES, Judge, is_convex
 from raycert.oracle.judge.moved import LAST_STEP, Step
+from shared.grid import leaves, rays, solids
 
 Pairs = list[tuple[float, float]]
 ONE, TWO = 8, 10

@@ -7,8 +7,6 @@ from itertools import pairwise
 from math import isqrt
 
 import pytest
-from exact.test_laws import leaves, rays, solids
-from exact.test_trace import at, dot, exact, inside, member, minus, on_a_surface, samples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -32,6 +30,8 @@ from raycert.oracle.exact.intervals import Intervals, contains
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.levels import LIMIT
 from raycert.oracle.judge.moved import LAST_STEP, REFINE, Scene, Shift, Step, moved_leaf, norm
+from shared.definition import at, dot, exact, inside, member, minus, on_a_surface, samples
+from shared.grid import leaves, rays, solids
 
 formats = st.sampled_from([BINARY64, BINARY32])
 measures = st.sampled_from(["strict", "squared"])

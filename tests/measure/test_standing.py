@@ -8,10 +8,10 @@ from contextlib import nullcontext
 from importlib.resources import files
 from typing import Any
 
-import made_certificates as made_up
 import pytest
 from jsonschema import Draft202012Validator
 
+import shared.certificates as made_up
 from raycert.oracle.client.dialogue import Unusable
 from raycert.oracle.client.target import target
 from raycert.oracle.measure.bench.run import Effort

@@ -6,12 +6,11 @@ from collections.abc import Callable
 from html.parser import HTMLParser
 from io import StringIO
 
-import made_certificates as made_up
 import pytest
 from junitparser import JUnitXml
-from made_certificates import Json, made
 from rich.console import Console
 
+import shared.certificates as made_up
 from raycert.oracle.reports.form import FIELDS, BadCertificate, check
 from raycert.oracle.reports.junit import junit
 from raycert.oracle.reports.markdown import code, markdown
@@ -20,6 +19,7 @@ from raycert.oracle.reports.reading import failing, verdict
 from raycert.oracle.reports.terminal import report
 from raycert.oracle.reports.text import clean, count, intervals, number
 from raycert.oracle.reports.write import WRITERS
+from shared.certificates import Json, made
 
 
 def terminal(certificate: Json) -> str:

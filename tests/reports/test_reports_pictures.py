@@ -8,9 +8,9 @@ from itertools import pairwise
 from math import inf
 from xml.etree import ElementTree
 
-import made_certificates as made_up
 import pytest
 
+import shared.certificates as made_up
 from raycert.cases.formats import BINARY32, BINARY64
 from raycert.cases.model import Cylinder, Leaf, Ray, Solid, leaves, type_of
 from raycert.cases.row import GoldenRow

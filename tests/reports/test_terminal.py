@@ -3,13 +3,13 @@
 import copy
 from io import StringIO
 
-import made_certificates as made_up
 import pytest
-from made_certificates import Json
 from rich.console import Console
 
+import shared.certificates as made_up
 from raycert.oracle.reports.reading import failing
 from raycert.oracle.reports.terminal import SHOWN, report
+from shared.certificates import Json
 
 
 def printed(certificate: Json, colour: bool = False, out: str | None = None) -> str:

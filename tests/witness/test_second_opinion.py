@@ -10,16 +10,16 @@ from math import inf, nextafter
 from pathlib import Path
 
 import pytest
-import second_opinion as other
-from exact.test_laws import leaves, rays
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import shared.second_opinion as other
 from raycert.cases.corpus import read_corpus
 from raycert.cases.formats import BINARY64, FORMATS, Format
 from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Leaf, Ray, Slab, Solid, Tree
 from raycert.cases.row import GoldenRow
 from raycert.oracle.judge.levels import Judge
+from shared.grid import leaves, rays
 
 both = pytest.mark.parametrize("fmt", FORMATS.values(), ids=FORMATS)
 

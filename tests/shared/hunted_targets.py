@@ -1,4 +1,4 @@
-"""Targets for the tests of the hunt, importable in worker processes: `hunted_targets:crashing`."""
+"""Targets for the tests of the hunt, importable in worker processes."""
 
 import os
 import time
