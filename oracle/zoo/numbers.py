@@ -62,7 +62,7 @@ def shift(x: float, e: int) -> float:
     """Return x 2^e as a number of the same kind; a double that overflows is infinite."""
     if not e or not x:
         return x
-    if isinstance(x, Fraction):
+    if type(x) is Fraction:
         return cast(float, x * Fraction(2) ** e)
     try:
         moved = ldexp(x, e)
@@ -73,7 +73,12 @@ def shift(x: float, e: int) -> float:
 
 def shifted(a: Vector, e: int) -> Vector:
     """Return a 2^e."""
-    return (shift(a[0], e), shift(a[1], e), shift(a[2], e)) if e else a
+    if not e:
+        return a
+    if type(a[0]) is float and -1022 <= e <= 1022:  # the factor is exact: one rounding, as in shift
+        k = ldexp(1.0, e)
+        return (a[0] * k, a[1] * k, a[2] * k)
+    return (shift(a[0], e), shift(a[1], e), shift(a[2], e))
 
 
 def exponent(*numbers: float) -> int:

@@ -171,7 +171,8 @@ class Tracer:
     def sight(self, ray: Ray, p: Vector, q: Vector, w: Vector | None, radius: float) -> Sight:
         """Return the leaf at p and q, with axis or normal w (q - p if None), scaled."""
         e = self.scale(*ray.origin, *p, *q, radius)
-        u, p, q = (shifted(self.vector(x), -e) for x in (ray.origin, p, q))
+        u = shifted(self.vector(ray.origin), -e)
+        p, q = shifted(self.vector(p), -e), shifted(self.vector(q), -e)
         y, z, r = minus(u, p), minus(u, q), shift(self.number(radius), -e)
         v, w = self.vector(ray.direction), minus(q, p) if w is None else self.vector(w)
         small, ve, we = self.scale(*y, *z, r), self.scale(*v), self.scale(*w)
@@ -180,6 +181,8 @@ class Tracer:
 
     def vector(self, a: Vector) -> Vector:
         """Return the components as numbers to compute with."""
+        if self.number is identity:
+            return a
         return (self.number(a[0]), self.number(a[1]), self.number(a[2]))
 
 
