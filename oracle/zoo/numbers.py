@@ -62,7 +62,7 @@ def shift(x: float, e: int) -> float:
     """Return x 2^e as a number of the same kind; a double that overflows is infinite."""
     if not e or not x:
         return x
-    if type(x) is Fraction:
+    if type(x) is not float and isinstance(x, Fraction):
         return cast(float, x * Fraction(2) ** e)
     try:
         moved = ldexp(x, e)
