@@ -16,7 +16,7 @@ from raycert.cases.levels import LEVELS, Level
 from raycert.cases.protocol import Hello, Reply, convention
 from raycert.cases.row import GoldenRow
 from raycert.oracle.client.process import Failure
-from raycert.oracle.judge.answer import Answer, Listed, answer
+from raycert.oracle.judge.answer import Claim, Listed, claim
 from raycert.oracle.judge.decisive import decisive
 from raycert.oracle.judge.levels import MEASURES, Enclosures, Judge
 
@@ -32,7 +32,7 @@ class Grade:
     """
 
     row: GoldenRow
-    said: Answer | None
+    said: Claim | None
     faults: Mapping[str, str]
     judge: Judge
     decides: tuple[str, ...] = ()
@@ -82,7 +82,7 @@ def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
     if failure is not None:
         return Grade(row, None, dict.fromkeys(LEVELS, failure), judge, row.decisive)
     assert isinstance(outcome, Reply)
-    said = answer(outcome, hello)
+    said = claim(outcome, hello)
     malformed = said.malformed(judge)
     if malformed is not None:
         return Grade(row, said, dict.fromkeys(LEVELS, malformed), judge, row.decisive)
@@ -111,7 +111,7 @@ def _failure(outcome: Reply | Failure) -> str | None:
 
 
 def _faults(
-    row: GoldenRow, said: Answer, judge: Judge, hello: Hello, decides: Collection[str]
+    row: GoldenRow, said: Claim, judge: Judge, hello: Hello, decides: Collection[str]
 ) -> tuple[dict[str, str], dict[str, str]]:
     """Return the reasons why the answer fails levels: those the row decides, and the others."""
     faults: dict[str, str] = {}
@@ -126,7 +126,7 @@ def _faults(
 
 
 def _level_fault(
-    level: Level, row: GoldenRow, said: Answer, judge: Judge, hello: Hello
+    level: Level, row: GoldenRow, said: Claim, judge: Judge, hello: Hello
 ) -> str | None:
     match level:
         case "sound" | "stable":

@@ -32,7 +32,7 @@ from raycert.oracle.client.dialogue import Outcome
 from raycert.oracle.client.process import Failure
 from raycert.oracle.corpus.golden import golden_row
 from raycert.oracle.exact.faces import touch
-from raycert.oracle.judge.answer import Answer, First, Listed, answer
+from raycert.oracle.judge.answer import Claim, First, Listed, claim
 from raycert.oracle.judge.decisive import decisive
 from raycert.oracle.judge.levels import Judge
 from raycert.oracle.judge.moved import LAST_STEP
@@ -108,7 +108,7 @@ class Looker:
         if silent:
             return Seen(silent, inf)
         assert isinstance(outcome, Reply)
-        said, judge = answer(outcome, self.hello), self.judge(probe)
+        said, judge = claim(outcome, self.hello), self.judge(probe)
         if isinstance(said, Listed) and said.pairs == judge.expected:
             return RIGHT if self.asked.convention is None else Seen(self._unkept(said, judge))
         malformed = said.malformed(judge)
@@ -124,7 +124,7 @@ class Looker:
             fault = self._finer(probe, outcome)
         return Seen(fault, k, said.forward_error(judge))
 
-    def _unkept(self, said: Answer, judge: Judge) -> Fault | None:
+    def _unkept(self, said: Claim, judge: Judge) -> Fault | None:
         """Return the fault of a touch kept or dropped against the convention asked for."""
         if (
             judge.tier != "lattice"
@@ -140,7 +140,7 @@ class Looker:
         how = "kept" if kept else "dropped"
         return Fault("convention", f"touch {how}", f"a touch ({name}) is {how}")
 
-    def _gross(self, said: Answer, judge: Judge) -> Fault | None:
+    def _gross(self, said: Claim, judge: Judge) -> Fault | None:
         """Return how an answer fails `sound` or `stable`, as far as they are asked."""
         upto: tuple[Level, ...] = ("sound",) if self.asked.level == "sound" else ("stable", "sound")
         failed: list[tuple[Level, Accept, str]] = []
@@ -175,7 +175,7 @@ class Looker:
         judge = self.judge(probe)
         if "stable" not in deciding(judge):
             return 0.0
-        return answer(outcome, self.hello).backward_error(judge, "strict")
+        return claim(outcome, self.hello).backward_error(judge, "strict")
 
 
 def row(probe: Probe, looker: Looker) -> GoldenRow:
@@ -206,7 +206,7 @@ def _is_pinned(leaf: Leaf, ray: Ray) -> bool:
     return False
 
 
-def coarse_k(said: Answer, judge: Judge) -> float:
+def coarse_k(said: Claim, judge: Judge) -> float:
     """Return k rounded up to one of a few: what most answers cost is one comparison."""
     if not isinstance(said, Listed):
         return max(said.backward_error(judge, "strict"), 1.0)
@@ -215,7 +215,7 @@ def coarse_k(said: Answer, judge: Judge) -> float:
     return inf if found is None else 2.0 ** (found // 2 - 4)
 
 
-def how(said: Answer, accept: Accept) -> str:
+def how(said: Claim, accept: Accept) -> str:
     """Return the kind of a gross fault."""
     if isinstance(said, Listed):
         return kind(accept.outer, accept.inner, said.pairs)

@@ -25,7 +25,7 @@ from raycert.oracle.judge.levels import Enclosures, Judge
 from raycert.oracle.judge.moved import Measure
 
 
-class Answer(Protocol):
+class Claim(Protocol):
     """What every kind of answer can be asked."""
 
     def malformed(self, judge: Judge) -> str | None:
@@ -50,7 +50,7 @@ class Answer(Protocol):
         """Tell whether it kept the touches that are the whole of a list; None if it cannot tell."""
 
 
-def answer(reply: Reply, hello: Hello) -> Answer:
+def claim(reply: Reply, hello: Hello) -> Claim:
     """Return what a reply claims, -0 as 0."""
     if hello.answers == "any":
         return YesNo(bool(reply.hit))

@@ -18,7 +18,7 @@ from raycert.cases.model import Refused, types
 from raycert.cases.protocol import Hello, Reply
 from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target, Unusable
 from raycert.oracle.client.harness import Failure, Interrupted, greet, run
-from raycert.oracle.judge.answer import Answer, First, Listed, YesNo, answer
+from raycert.oracle.judge.answer import Claim, First, Listed, YesNo, claim
 from raycert.oracle.judge.levels import Judge
 from raycert.oracle.judge.pixels import error
 from raycert.oracle.map.inputs import Case
@@ -169,7 +169,7 @@ class Measure:
         silent = _silence(outcome)
         if silent or not isinstance(outcome, Reply):
             return Cell("", form, wanted, outcome, None, silent)
-        said = answer(outcome, hello)
+        said = claim(outcome, hello)
         if malformed := said.malformed(judge):
             return Cell("", form, wanted, outcome, None, f"malformed: {malformed}")
         match self._show:
@@ -181,7 +181,7 @@ class Measure:
                 return Cell("", form, wanted, outcome, None, looks(said))
         return Cell("", form, wanted, outcome, None, difference(said, judge))
 
-    def _k(self, said: Answer, case: Case, judge: Judge) -> float:
+    def _k(self, said: Claim, case: Case, judge: Judge) -> float:
         """Return the strict backward error."""
         if isinstance(said, Listed) and judge.format is BINARY64 and not judge.tolerance:
             k, self._guess = error(*case, said.pairs, self._guess)
@@ -198,7 +198,7 @@ def _silence(outcome: Outcome) -> str:
     return "" if outcome.error is None else f"error: {outcome.error}"
 
 
-def looks(said: Answer) -> str:
+def looks(said: Claim) -> str:
     """Return the form of an answer, as far as it tells one."""
     match said:
         case Listed(pairs):
@@ -210,7 +210,7 @@ def looks(said: Answer) -> str:
     raise TypeError(said)
 
 
-def difference(said: Answer, judge: Judge) -> str:
+def difference(said: Claim, judge: Judge) -> str:
     """Return how an answer differs from the exact one; k decides against 64, strictly."""
     if said.is_expected(judge.expected) is None:
         return EXACT
@@ -225,5 +225,5 @@ def difference(said: Answer, judge: Judge) -> str:
     return which + (BEYOND if said.fault(judge.accept("stable")) else WITHIN)
 
 
-def _hits(said: Answer) -> bool:
+def _hits(said: Claim) -> bool:
     return said.hit if isinstance(said, YesNo) else isinstance(said, First) and said.t is not None
