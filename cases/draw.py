@@ -13,9 +13,23 @@ from typing import TypeVar
 from raycert.cases.case import Case
 from raycert.cases.dice import Dice
 from raycert.cases.families.frames import ALIGNED, OBLIQUE, Exact, Frame, Number
-from raycert.cases.families.ladders import decades
-from raycert.cases.families.shapes import Shape, ball, below, layer, pipe, rod, scene
-from raycert.cases.families.sketch import MISS, Pairs, near, pair, plus, ten, times, two
+from raycert.cases.families.shots import Shot, decades
+from raycert.cases.families.sketch import (
+    MISS,
+    Pairs,
+    Shape,
+    ball,
+    below,
+    layer,
+    near,
+    pair,
+    pipe,
+    plus,
+    rod,
+    ten,
+    times,
+    two,
+)
 from raycert.cases.formats import Format
 
 T = TypeVar("T")
@@ -100,17 +114,15 @@ def shot(
     speed: Fraction = Fraction(1),
 ) -> Case:
     """Return the ray that starts `back` steps before its target, with its known answer."""
-    return scene(
-        draw.fmt,
+    return Shot(
         "",
         f"A ray {what} {aim.noun}",
         aim.shape,
         plus(aim.target, aim.direction, -back),
         times(speed, aim.direction),
-        frame=frame or draw.frame(),
+        _ahead(aim, back, speed),
         flags=flags,
-        known=_ahead(aim, back, speed),
-    )
+    ).case(draw.fmt, frame or draw.frame())
 
 
 def _ahead(aim: Aim, back: Number, speed: Number) -> Pairs:

@@ -15,8 +15,9 @@ from raycert.cases.case import Case
 from raycert.cases.dice import Dice
 from raycert.cases.draw import CHORDS, Aim, Draw, any_aim, shot
 from raycert.cases.families.frames import UPRIGHT, Exact
-from raycert.cases.families.ladders import is_double
-from raycert.cases.families.shapes import (
+from raycert.cases.families.lists import AHEAD, SPEED, START, STYLES, Stretch, Term, build
+from raycert.cases.families.shots import Shot, is_double
+from raycert.cases.families.sketch import (
     Boolean,
     Shape,
     ball,
@@ -24,11 +25,11 @@ from raycert.cases.families.shapes import (
     layer,
     moved,
     pipe,
+    plus,
     rod,
-    scene,
+    times,
+    two,
 )
-from raycert.cases.families.sketch import plus, times, two
-from raycert.cases.families.stretches import AHEAD, SPEED, START, STYLES, Stretch, Term, build
 from raycert.cases.formats import Format
 
 
@@ -208,16 +209,14 @@ def _boolean(draw: Draw) -> Case:
     shape = build(_term(draw, 2), ways, draw.dice)
     later = draw.pick((*map(Fraction, (0, 0, 1)), draw.large()))
     size = draw.pick((Fraction(1), two(draw.whole(-15, 15))))
-    return scene(
-        draw.fmt,
+    return Shot(
         "",
         "A ray meets a Boolean of stretches",
         moved(shape, (SPEED * later, 0, 0)),
         START,
         AHEAD,
-        frame=draw.frame().scaled(size),
         flags=("coincident-faces",),
-    )
+    ).case(draw.fmt, draw.frame().scaled(size))
 
 
 LADDERS: tuple[tuple[str, Callable[[Draw], Case]], ...] = (

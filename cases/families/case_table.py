@@ -1,4 +1,4 @@
-"""The case table: golden rows for each of its cells, exact by construction.
+"""The three tables: golden rows for each of their rows and cells, exact by construction.
 
 The ray moves in a plane square to the lateral axis: a motion across the infinite cylinder, whose
 crossings (t1, t2) are chosen, and a motion along the axis, whose crossings with the cap planes are
@@ -7,13 +7,26 @@ chosen too. Origin, direction, radius and height follow.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from raycert.cases.case import Case, Family
-from raycert.cases.families.frames import Number, frames_for
-from raycert.cases.families.sketch import ALWAYS, MISS, Pairs, cylinder, pair, row
+from raycert.cases.families.frames import SEVENTHS, UPRIGHT, Frame, Number, frames_for
+from raycert.cases.families.shots import Flags, Shot, drawn, family, slopes, table
+from raycert.cases.families.sketch import (
+    ALWAYS,
+    MISS,
+    Pairs,
+    ball,
+    between,
+    cylinder,
+    half_space,
+    near,
+    pair,
+    slab,
+    spans,
+    tube,
+)
 from raycert.cases.formats import Format
 from raycert.cases.table import PROBLEM_1, comparison_names
 
@@ -188,9 +201,7 @@ def _meet(one: Span | None, two: Span | None) -> Pairs:
     if one is None or two is None:
         return MISS
     enter, leave = max(one[0], two[0]), _least(one[1], two[1])
-    if leave is None:
-        return ALWAYS if enter == 0 else pair(enter, None)
-    return pair(enter, leave) if enter <= leave else MISS
+    return pair(enter, leave) if leave is None or enter <= leave else MISS
 
 
 def _plainest(kind: str) -> Iterator[tuple[Across, Along, tuple[str, ...]]]:
@@ -207,37 +218,25 @@ def _plainest(kind: str) -> Iterator[tuple[Across, Along, tuple[str, ...]]]:
                 yield one, two, cell
 
 
-def _rows_of(kind: str) -> Callable[[Format], Iterable[Case]]:
-    def cases(fmt: Format) -> Iterator[Case]:
-        for one, two, cell in _plainest(kind):
-            yield from _placed(fmt, one, two, cell)
-
-    return cases
+def _rows_of(kind: str) -> Callable[[Format], Iterator[Shot]]:
+    return lambda _: (_cell(one, two, cell) for one, two, cell in _plainest(kind))
 
 
-def _placed(fmt: Format, one: Across, two: Along, cell: tuple[str, ...]) -> Iterator[Case]:
+def _cell(one: Across, two: Along, cell: tuple[str, ...]) -> Shot:
     words = [two.row.lower(), *cell, one.name]
     if two.name != "planes":
         words.append(two.name)
-    slug = "-".join(words)
     flags = [*one.flags, *two.flags]
     if one.vx == 0:
         flags.append("zero-direction" if two.vz == 0 else "parallel")
     elif two.vz == 0:
         flags.append("perpendicular")
     straight = one.vx == 0 or two.vz == 0
-    for frame in frames_for(slug, aligned=2 if straight else 1, oblique=1):
-        yield row(
-            fmt,
-            slug,
-            f"{_sentence(one, two)}{_order(cell)}",
-            cylinder(one.radius, two.height),
-            (one.x, one.y, two.z),
-            (one.vx, 0, two.vz),
-            frame=frame,
-            flags=tuple(dict.fromkeys(flags)),
-            known=_meet(one.span, two.span),
-        )
+    return Shot(
+        "-".join(words), f"{_sentence(one, two)}{_order(cell)}",
+        cylinder(one.radius, two.height), (one.x, one.y, two.z), (one.vx, 0, two.vz),
+        _meet(one.span, two.span), drawn(2 if straight else 1, 1), tuple(flags),
+    )  # fmt: skip
 
 
 def _sentence(one: Across, two: Along) -> str:
@@ -253,11 +252,171 @@ def _order(cell: tuple[str, ...]) -> str:
     return f": {text}" if text else ""
 
 
-FAMILIES = tuple(
-    Family(
-        f"table-{one.name}",
-        f"Every reachable cell of the case table with the row {one.name} of Problem 1.",
-        _rows_of(one.name),
-    )
-    for one in PROBLEM_1
+WHEN = {
+    "ahead": (1, 3),
+    "from-the-wall": (0, 2),
+    "from-inside": (-1, 1),
+    "leaving": (-2, 0),
+    "behind": (-3, -1),
+}
+TOUCHES = {"ahead": 2, "at-the-start": 0, "behind": -2}
+
+
+def _crossings() -> Iterator[tuple[str, tuple[int, int], Across]]:
+    """Yield (slug, crossing times, motion) of chords and diameters."""
+    for when, (t1, t2) in WHEN.items():
+        for one in (chord(t1, t2), diameter(t1, t2)):
+            yield f"{one.name}-{when}", (t1, t2), one
+
+
+def _motions() -> Iterator[tuple[str, str, Across]]:
+    """Yield (slug, words for when, motion)."""
+    for slug, (t1, t2), one in _crossings():
+        yield slug, f", from t = {t1} to {t2}", one
+    for when, t in TOUCHES.items():
+        yield f"graze-{when}", f" at t = {t}", graze(t)
+    for one in (*STILL, *MISSES):
+        yield one.name, "", one
+
+
+def _tube_rows(_: Format) -> Iterator[Shot]:
+    for name, when, one in _motions():
+        for word, text, vz in (("level", "without", 0), ("climbing", "with", 2)):
+            if one.vx == vz == 0:
+                continue
+            way = ("parallel",) if one.vx == 0 else () if vz else ("perpendicular",)
+            yield Shot(
+                f"{name}-{word}", f"A ray is {one.text}{when}, {text} a part along the axis",
+                tube(one.radius), (one.x, one.y, 2), (one.vx, 0, vz),
+                MISS if one.span is None else spans(one.span), flags=(*one.flags, *way),
+            )  # fmt: skip
+
+
+def _sphere_rows(_: Format) -> Iterator[Shot]:
+    for slug, (t1, t2), one in _crossings():
+        text = f"A ray meets a sphere {one.text.replace('axis', 'centre')}"
+        yield Shot(
+            slug, f"{text}, at t = {t1} and t = {t2}", ball(one.radius), (one.x, one.y, 0),
+            (one.vx, 0, 0), MISS if one.span is None else spans(one.span), _moved(2, 1),
+            _start_flags(t1, t2),
+        )  # fmt: skip
+    for shot in SPHERE_MISSES:
+        yield shot.named("miss-{}", "A ray {}").but(frame=_moved(1, 2)(shot.slug))
+    for shot in SPHERE_RESTS:
+        on = ("start-on-surface",) if shot.slug in ("pole", "skew") else ()
+        text = "A ray with no direction rests {}"
+        frames = _moved(1, 1)(shot.slug)
+        yield shot.named("rest-{}", text, "zero-direction", *on).but(frame=frames)
+
+
+def _moved(aligned: int, oblique: int) -> Callable[[str], tuple[Frame, ...]]:
+    """Return a draw of frames, every second one away from the coordinate origin."""
+
+    def frames(slug: str) -> tuple[Frame, ...]:
+        numbered = enumerate(frames_for(slug, aligned, oblique), len(slug))
+        return tuple(frame.moved((8, -16, 4)) if i % 2 else frame for i, frame in numbered)
+
+    return frames
+
+
+def _start_flags(t1: int, t2: int) -> Flags:
+    if t2 < 0:
+        return ("behind",)
+    if t1 == 0 or t2 == 0:
+        return ("start-on-surface",)
+    return ("start-inside",) if t1 < 0 else ()
+
+
+SPHERE_MISSES = (
+    Shot("wide", "passes wide of a sphere", ball(4), (-8, 5, 0), (4, 0, 0), MISS),
+    Shot("corner", "passes a sphere, through its cube", ball(4), (-8, 3, 3), (4, 0, 0), MISS),
+    Shot("receding", "moves away, its line wide of a sphere", ball(4), (8, 5, 1), (4, 0, 1), MISS,
+         flags=("behind",)),
+    Shot("away", "moves straight away from a sphere", ball(4), (0, 6, 0), (0, 2, 0), MISS,
+         flags=("behind",)),
+)  # fmt: skip
+REST = (0, 0, 0)
+SPHERE_RESTS = table(
+    ("centre", "at the centre of a sphere", ball(4), (0, 0, 0), REST, ALWAYS),
+    ("inside", "inside a sphere", ball(4), (1, 2, 3), REST, ALWAYS),
+    ("pole", "on a sphere, straight above its centre", ball(4), (0, 0, 4), REST, ALWAYS),
+    ("skew", "on a sphere, at (1, 2, 2)", ball(3), (1, 2, 2), REST, ALWAYS),
+    ("corner", "beside a sphere, inside its cube", ball(4), (3, 3, 3), REST, MISS),
+    ("outside", "outside a sphere", ball(4), (0, 0, 5), REST, MISS),
 )
+Places = dict[str, tuple[int, str]]
+HALF_SPACE_PLACES = {"inside": (-6, "inside"), "on": (0, "on the plane"), "outside": (5, "outside")}
+HALF_SPACE_MOVES = {"in": (-2, "inward"), "along": (0, "along the plane"), "out": (2, "outward")}
+SLAB_PLACES = {
+    "beyond-p": (-1, "beyond p"),
+    "on-p": (0, "on the plane of p"),
+    "between": (2, "between the planes"),
+    "on-q": (8, "on the plane of q"),
+    "beyond-q": (9, "beyond q"),
+}
+SLAB_MOVES = {"to-q": (2, "towards q"), "along": (0, "along the planes"), "to-p": (-2, "towards p")}
+
+
+def _below(z: Number, vz: Number) -> Pairs:
+    """Return where z + vz t <= 0."""
+    if vz == 0:
+        return ALWAYS if z <= 0 else MISS
+    t = Fraction(-z) / vz
+    if vz > 0:
+        return pair(0, t) if t >= 0 else MISS
+    return pair(max(t, Fraction(0)), None)
+
+
+def _plane_rows(height: int, places: Places, moves: Places) -> Iterator[Shot]:
+    """Yield the motions from each place at a slab of this height, or at a half-space (0)."""
+    for place, (z, where) in places.items():
+        for move, (vz, way) in moves.items():
+            for slant, (vx, how) in {
+                "straight": (0, "straight"),
+                "slanted": (3, "with a part along the plane"),
+            }.items():
+                vx = 4 if move == "along" and not vx else vx
+                vy = 2 if move == "along" and slant == "slanted" else 0
+                on = ("start-on-surface",) if z in (0, height) else ()
+                yield Shot(
+                    f"{place}-{move}-{slant}", f"A ray starts {where} and goes {way}, {how}",
+                    slab(height) if height else half_space(normal=2), (1, -3, z), (vx, vy, vz),
+                    between(z, vz, 0, height) if height else _below(z, vz),
+                    flags=(*on, "cap-plane") if on and not vz else on,
+                )  # fmt: skip
+
+
+def _near_parallel(fmt: Format) -> Iterator[Shot]:
+    for name, tilt in slopes(fmt):
+        sink, rise = near(fmt, -tilt), near(fmt, tilt)
+        for body, slug, what, start, vz, known, frame in (
+            (half_space(), "above-sinking", "sinks into", 1, sink, _below(1, sink), UPRIGHT),
+            (half_space(), "below-rising", "rises out of", -1, rise, _below(-1, rise), SEVENTHS),
+            (slab(4), "above-sinking", "sinks through", 6, sink, between(6, sink, 0, 4), UPRIGHT),
+            (slab(4), "inside-rising", "rises out of", 1, rise, between(1, rise, 0, 4), SEVENTHS),
+        ):
+            yield Shot(
+                f"{body.word}-{slug}-{name}", f"A ray {what} {body.noun} with a slope of {name}",
+                body, (2, 1, start), (1, 0, vz), known, frame,
+            )  # fmt: skip
+
+
+FAMILIES = (
+    *(
+        family(
+            f"table-{one.name}",
+            f"Every reachable cell of the case table with the row {one.name} of Problem 1.",
+            _rows_of(one.name),
+        )
+        for one in PROBLEM_1
+    ),
+    family("infinite-cylinder-rows", "Each row of Problem 1, with and without a climb.", _tube_rows,
+           frame=drawn(1, 1)),
+    family("half-space-rows", "The four cases of Problem 2 (c), from each side.",
+           tuple(_plane_rows(0, HALF_SPACE_PLACES, HALF_SPACE_MOVES)), frame=drawn(2, 2)),
+    family("slab-rows", "The seven rows of Problem 2, starts on the planes included.",
+           tuple(_plane_rows(8, SLAB_PLACES, SLAB_MOVES)), frame=drawn(2, 1)),
+    family("planes-near-parallel", "A plane met at a vanishing angle.", _near_parallel,
+           flags=("near-parallel",), tier="stiff"),
+    family("sphere-rows", "Each row of Problem 1, the axis shrunk to the centre.", _sphere_rows),
+)  # fmt: skip

@@ -1,28 +1,41 @@
-"""Sketches: a solid and a ray in exact numbers, and the case that they become.
+"""Sketches: solids in exact numbers, and the pen that writes them in numbers of a format.
 
-In a sketch the axis lies along z. Of a cylinder or slab, p is the lower end. Of a half-space, p
-is the point and q - p the outward normal.
+In a sketch an axis lies along z unless its p and q say otherwise. Of a cylinder or slab, p is the
+lower end. Of a half-space, p is the point and q - p the outward normal.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import Literal
 
-from raycert.cases.case import Case, KnownEnd, Tier
-from raycert.cases.families.frames import UPRIGHT, Exact, Frame, Number
+from raycert.cases.case import KnownEnd
+from raycert.cases.families.frames import Exact, Frame, Number
 from raycert.cases.formats import Format
-from raycert.cases.lattice import is_lattice
-from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Ray, Slab, Solid, Vector
+from raycert.cases.model import (
+    Cylinder,
+    Difference,
+    HalfSpace,
+    InfiniteCylinder,
+    Intersection,
+    Slab,
+    Solid,
+    Sphere,
+    Union,
+    Vector,
+)
 
 Pairs = tuple[tuple[KnownEnd, KnownEnd], ...]
 MISS: Pairs = ()
 ALWAYS: Pairs = ((0, None),)
+Boolean = Literal["union", "intersection", "difference"]
 
 
 @dataclass(frozen=True, slots=True)
 class Body:
-    """A solid in exact numbers. `kind` is its JSON type name, `noun` what a sentence calls it."""
+    """A solid with an axis or a normal. `kind` is its JSON type name."""
 
     kind: str
     p: Exact
@@ -48,6 +61,25 @@ NOUNS = {
 }
 
 
+@dataclass(frozen=True, slots=True)
+class Ball:
+    """A sphere."""
+
+    center: Exact
+    radius: Number
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """A Boolean of shapes."""
+
+    kind: Boolean
+    of: tuple[Shape, ...]
+
+
+Shape = Ball | Body | Node
+
+
 def cylinder(radius: Number, height: Number, base: Number = 0) -> Body:
     """Return the capped cylinder about z from z = base up."""
     return Body("cylinder", (0, 0, base), (0, 0, base + height), radius)
@@ -66,6 +98,64 @@ def slab(height: Number, base: Number = 0) -> Body:
 def half_space(level: Number = 0, normal: Number = 1) -> Body:
     """Return the half-space below z = level, with a normal of this length."""
     return Body("half_space", (0, 0, level), (0, 0, level + normal))
+
+
+def rod(p: Exact, q: Exact, radius: Number) -> Body:
+    """Return the capped cylinder from p to q."""
+    return Body("cylinder", p, q, radius)
+
+
+def pipe(p: Exact, q: Exact, radius: Number) -> Body:
+    """Return the infinite cylinder about the line pq."""
+    return Body("infinite_cylinder", p, q, radius)
+
+
+def layer(p: Exact, q: Exact) -> Body:
+    """Return the slab between the planes through p and q."""
+    return Body("slab", p, q)
+
+
+def below(point: Exact, normal: Exact) -> Body:
+    """Return the half-space with this outward normal."""
+    return Body("half_space", point, plus(point, normal))
+
+
+def ball(radius: Number, x: Number = 0, y: Number = 0, z: Number = 0) -> Ball:
+    """Return the sphere about (x, y, z)."""
+    return Ball((x, y, z), radius)
+
+
+def any_of(*of: Shape) -> Node:
+    """Return a union."""
+    return Node("union", of)
+
+
+def all_of(*of: Shape) -> Node:
+    """Return an intersection."""
+    return Node("intersection", of)
+
+
+def less(*of: Shape) -> Node:
+    """Return a difference."""
+    return Node("difference", of)
+
+
+MAKE: dict[Boolean, Callable[..., Node]] = {
+    "union": any_of,
+    "intersection": all_of,
+    "difference": less,
+}
+
+
+def moved(shape: Shape, by: Exact) -> Shape:
+    """Return a shape moved by a vector."""
+    match shape:
+        case Ball(center, radius):
+            return Ball(plus(center, by), radius)
+        case Body(kind, p, q, radius):
+            return Body(kind, plus(p, by), plus(q, by), radius)
+        case Node(kind=boolean, of=of):
+            return Node(boolean, tuple(moved(part, by) for part in of))
 
 
 def near(fmt: Format, number: Number) -> Fraction:
@@ -95,12 +185,17 @@ def times(factor: Number, a: Exact) -> Exact:
 
 def pair(enter: Number, leave: Number | None) -> Pairs:
     """Return the list of one known interval."""
-    return ((Fraction(enter), leave if leave is None else Fraction(leave)),)
+    return spans((enter, leave))
 
 
 def touch(t: Number) -> Pairs:
     """Return the list of one known touch."""
     return pair(t, t)
+
+
+def spans(*ends: tuple[Number | str, Number | str | None]) -> Pairs:
+    """Return the list of these known intervals; `7/4` is a fraction, None is infinity."""
+    return tuple((Fraction(a), None if b is None else Fraction(b)) for a, b in ends)
 
 
 def between(start: Number, speed: Number, low: Number, high: Number) -> Pairs:
@@ -112,44 +207,18 @@ def between(start: Number, speed: Number, low: Number, high: Number) -> Pairs:
     return pair(enter, leave) if leave >= 0 else MISS
 
 
-def row(
-    fmt: Format,
-    slug: str,
-    why: str,
-    body: Body,
-    origin: Exact,
-    direction: Exact,
-    *,
-    frame: Frame = UPRIGHT,
-    tier: Tier = "generic",
-    flags: tuple[str, ...] = (),
-    known: Pairs | None = None,
-    source: str = "",
-) -> Case:
-    """Return the case of a sketch put in a frame.
-
-    `why` comes without its full stop. A named frame is added to slug and sentence. Numbers that
-    the format cannot hold are rounded, and `known` is then dropped: it was the answer of another
-    scene. `tier` is for a case off the lattice.
-    """
-    pen = LeafPen(fmt)
-    solid = pen.solid(body, frame)
-    ray = Ray(pen.vector(frame.point(origin)), pen.vector(frame.vector(direction)))
-    if not pen.exact:
-        known = None
-    return Case(
-        slug=f"{slug}-{frame.name}" if frame.name else slug,
-        why=f"{why}, {frame.text}." if frame.text else f"{why}.",
-        solid=solid,
-        ray=ray,
-        tier="lattice" if tier != "range" and is_lattice(solid, ray) else tier,
-        flags=flags,
-        source=source or ("oracle" if known is None else "construction"),
-        known=known,
-    )
+def later(known: Pairs, by: Number) -> Pairs:
+    """Return a list moved along the ray, and cut off at t = 0."""
+    ends = ((a + by, None if b is None else b + by) for a, b in known if a is not None)
+    return tuple((max(a, 0), b) for a, b in ends if b is None or b >= 0)
 
 
-class LeafPen:
+def slower(known: Pairs, factor: Fraction) -> Pairs:
+    """Return the list for a direction `factor` times as long."""
+    return tuple((a and a / factor, b and b / factor) for a, b in known)
+
+
+class Pen:
     """Writes exact numbers as numbers of a format, and remembers whether that changed any."""
 
     def __init__(self, fmt: Format) -> None:
@@ -167,16 +236,26 @@ class LeafPen:
         x, y, z = vector
         return (self.real(x), self.real(y), self.real(z))
 
-    def solid(self, body: Body, frame: Frame) -> Solid:
-        """Return a sketched body as it stands in a frame."""
-        p = self.vector(frame.point(body.p))
-        if body.kind == "half_space":
-            return HalfSpace(p, self.vector(frame.vector(plus(body.q, body.p, -1))))
-        q = self.vector(frame.point(body.q))
-        match body.kind:
-            case "slab":
-                return Slab(p, q)
-            case "infinite_cylinder":
-                return InfiniteCylinder(p, q, self.real(frame.stretch * body.radius))
-            case _:
-                return Cylinder(p, q, self.real(frame.stretch * body.radius))
+    def solid(self, shape: Shape, frame: Frame) -> Solid:
+        """Return the solid of a shape put in a frame."""
+        match shape:
+            case Ball(center, radius):
+                return Sphere(self.vector(frame.point(center)), self.real(frame.stretch * radius))
+            case Node(kind=boolean, of=of):
+                return _BOOLEANS[boolean](tuple(self.solid(part, frame) for part in of))
+            case Body("half_space", p, q):
+                normal = frame.vector(plus(q, p, -1))
+                return HalfSpace(self.vector(frame.point(p)), self.vector(normal))
+            case Body("slab", p, q):
+                return Slab(self.vector(frame.point(p)), self.vector(frame.point(q)))
+            case Body(kind, p, q, radius):
+                make = InfiniteCylinder if kind == "infinite_cylinder" else Cylinder
+                ends = (self.vector(frame.point(p)), self.vector(frame.point(q)))
+                return make(*ends, self.real(frame.stretch * radius))
+
+
+_BOOLEANS: dict[Boolean, type[Union | Intersection | Difference]] = {
+    "union": Union,
+    "intersection": Intersection,
+    "difference": Difference,
+}

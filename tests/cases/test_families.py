@@ -14,7 +14,18 @@ from raycert.cases.corpus import read_corpus
 from raycert.cases.families import adopted
 from raycert.cases.families.catalog import FAMILIES
 from raycert.cases.families.frames import ALIGNED, OBLIQUE, frames_for
-from raycert.cases.families.sketch import ALWAYS, MISS, Pairs, between, cylinder, pair, row, touch
+from raycert.cases.families.shots import Shot, family
+from raycert.cases.families.sketch import (
+    ALWAYS,
+    MISS,
+    Pairs,
+    between,
+    cylinder,
+    later,
+    pair,
+    spans,
+    touch,
+)
 from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
 from raycert.cases.lattice import is_lattice
 from raycert.cases.model import (
@@ -31,7 +42,10 @@ from raycert.cases.model import (
     leaves,
     type_of,
 )
+from raycert.cases.numbers import Scene
+from raycert.cases.numbers import numbers as numbers_of
 from raycert.cases.table import cells
+from raycert.oracle.corpus.golden import known as exactly
 from raycert.oracle.exact.faces import place
 from raycert.oracle.exact.faces import touch as touch_of
 from raycert.oracle.exact.rounding import expected
@@ -56,18 +70,9 @@ def every(fmt: Format) -> list[Case]:
     return [case for family in FAMILIES for case in rows(family, fmt)]
 
 
-def numbers(case: Case) -> list[float]:
+def numbers(case: Case) -> tuple[float, ...]:
     """Return every number of a case."""
-    vectors = [case.ray.origin, case.ray.direction]
-    single: list[float] = []
-    for _, leaf in leaves(case.solid):
-        for name in type(leaf).__slots__:
-            value = getattr(leaf, name)
-            if isinstance(value, tuple):
-                vectors.append(value)
-            else:
-                single.append(value)
-    return single + [x for vector in vectors for x in vector]
+    return numbers_of(Scene(case.solid, case.ray))
 
 
 def shape(solid: Solid) -> str:
@@ -235,14 +240,15 @@ def test_frames_drawn_by_a_name_stay_the_same() -> None:
 def test_a_sketch_that_the_format_cannot_hold_is_another_scene_with_no_known_answer() -> None:
     third = Fraction(1, 3)
     for x, known in ((Fraction(1, 4), touch(2)), (third, None)):
-        case = row(BINARY64, "s", "W", cylinder(1, 4), (-2, x, 1), (1, 0, 0), known=touch(2))
+        [case] = Shot("s", "W", cylinder(1, 4), (-2, x, 1), (1, 0, 0), touch(2)).cases(BINARY64)
         assert case.known == known
         assert case.source == ("oracle" if known is None else "construction")
         assert case.ray.origin[1] == float(x)
 
 
 def test_a_frame_adds_its_name_to_slug_and_sentence() -> None:
-    case = row(BINARY32, "s", "A fact", cylinder(1, 4), (0, 0, 0), (1, 0, 0), frame=ALIGNED[1])
+    shot = Shot("s", "A fact", cylinder(1, 4), (0, 0, 0), (1, 0, 0), frame=ALIGNED[1])
+    [case] = shot.cases(BINARY32)
     assert case.slug == "s-on-x"
     assert case.why == "A fact, axis along +x."
     assert case.solid == Cylinder((0, 0, 0), (4, 0, 0), 1)
@@ -262,6 +268,33 @@ def test_a_frame_adds_its_name_to_slug_and_sentence() -> None:
 )
 def test_between_clips_at_the_start(start: int, speed: int, known: Pairs) -> None:
     assert between(start, speed, 0, 4) == known
+
+
+def test_a_list_moved_along_its_ray_is_cut_off_at_the_start() -> None:
+    known = spans((-5, -3), (-1, 1), (3, None))
+    assert later(known, 2) == spans((1, 3), (5, None))
+    assert later(known, 3) == spans((0, 0), (2, 4), (6, None))
+    assert later(touch(0), -1) == MISS
+
+
+def test_a_shot_is_moved_and_scaled_with_its_answer() -> None:
+    aim = Shot("aim", "at it", cylinder(4, 8), (0, 0, 4), (2, 0, 0), pair(-2, 2))
+    assert aim.back(5).but(slug="") == aim.but(slug="", origin=(-10, 0, 4), known=pair(3, 7))
+    assert aim.back(1).faster(Fraction(1, 2)).known == pair(0, 6)
+    for shot in (aim.back(5), aim.back(1).faster(Fraction(4)), aim.back(3).larger(Fraction(2))):
+        [case] = shot.cases(BINARY64)
+        assert exactly(shot.known) == trace(case.solid, case.ray).intervals
+
+
+def test_a_family_says_what_its_table_leaves_out() -> None:
+    line = Shot("a", "the wall", cylinder(4, 8), (4, 0, 1), (1, 3, 0), flags=("rim",))
+    own = line.but(slug="b", frame=OBLIQUE[0], tier="range")
+    made = family("f", "R.", (line, own), "Starts on {}", ("x",), frame=ALIGNED[:2], tier="stiff")
+    cases = list(made.cases(BINARY64))
+    assert [case.slug for case in cases] == ["a-on-z", "a-on-x", "b-fifths"]
+    assert [case.tier for case in cases] == ["stiff", "stiff", "range"]
+    assert cases[0].why == "Starts on the wall, axis along +z."
+    assert {case.flags for case in cases} == {("x", "rim")}
 
 
 AXIS = Ray((-8, 4, 3), (4, 0, 0))

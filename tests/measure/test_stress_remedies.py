@@ -5,8 +5,7 @@ from fractions import Fraction
 import pytest
 
 from raycert.cases.families.frames import SEVENTHS, UPRIGHT
-from raycert.cases.families.shapes import ball, pipe, rod
-from raycert.cases.families.sketch import ten, two
+from raycert.cases.families.sketch import ball, pipe, rod, ten, two
 from raycert.cases.formats import BINARY64
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.rounding import nearest

@@ -7,7 +7,7 @@ import pytest
 from raycert.cases.dice import Dice
 from raycert.cases.draw import Draw
 from raycert.cases.families.frames import ON_Z
-from raycert.cases.families.shapes import rod
+from raycert.cases.families.sketch import rod
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, Refused
 from raycert.oracle.measure.stress.sample import Sample, before, disc, frame, heading, root

@@ -10,8 +10,7 @@ from fractions import Fraction
 
 from raycert.cases.draw import Draw
 from raycert.cases.families.frames import Exact
-from raycert.cases.families.shapes import pipe, rod
-from raycert.cases.families.sketch import Body, times
+from raycert.cases.families.sketch import Body, pipe, rod, times
 from raycert.oracle.measure.stress.sample import Sample, before, disc, frame, heading, real, root
 
 FAR_UP = 4096

@@ -21,8 +21,7 @@ from dataclasses import replace
 from fractions import Fraction
 
 from raycert.cases.families.frames import ALIGNED, UPRIGHT, Exact, Number
-from raycert.cases.families.shapes import Ball, Node, Shape, moved
-from raycert.cases.families.sketch import Body, plus, times, two
+from raycert.cases.families.sketch import Ball, Body, Node, Shape, moved, plus, times, two
 from raycert.oracle.measure.stress.sample import Sample, root
 
 Remedy = Callable[[Sample], Sample | None]

@@ -13,7 +13,7 @@ from fractions import Fraction
 from math import log2, nan
 
 from raycert.cases.families.frames import UPRIGHT
-from raycert.cases.families.shapes import rod
+from raycert.cases.families.sketch import rod
 from raycert.oracle.measure.methods.catalog import METHODS, SIDES, here
 from raycert.oracle.measure.methods.method import Case, Method
 from raycert.oracle.measure.stress.measure import Question

@@ -13,8 +13,7 @@ from math import isqrt
 
 from raycert.cases.draw import Draw
 from raycert.cases.families.frames import ALIGNED, OBLIQUE, UPRIGHT, Exact, Frame, Number
-from raycert.cases.families.shapes import Pen, Shape
-from raycert.cases.families.sketch import plus, times
+from raycert.cases.families.sketch import Pen, Shape, plus, times
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import Ray, Solid
 

@@ -6,10 +6,21 @@ from fractions import Fraction
 
 from raycert.cases.draw import Draw
 from raycert.cases.families.frames import FIFTHS, SEVENTHS, THIRDS, UPRIGHT, Exact
-from raycert.cases.families.rounding import START, half_unit
-from raycert.cases.families.shapes import Shape, all_of, any_of, below, layer, less, pipe, rod
-from raycert.cases.families.sketch import Body, times, two
-from raycert.cases.families.tangent import CONTACTS
+from raycert.cases.families.scale import START, half_unit
+from raycert.cases.families.sketch import (
+    Body,
+    Shape,
+    all_of,
+    any_of,
+    below,
+    layer,
+    less,
+    pipe,
+    rod,
+    times,
+    two,
+)
+from raycert.cases.families.touch import CONTACTS
 from raycert.cases.formats import BINARY64
 from raycert.oracle.measure.stress.sample import Sample, before, frame, heading, real, root
 
