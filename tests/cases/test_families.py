@@ -42,7 +42,7 @@ from raycert.cases.model import (
     leaves,
     type_of,
 )
-from raycert.cases.numbers import Scene
+from raycert.cases.numbers import Probe
 from raycert.cases.numbers import numbers as numbers_of
 from raycert.cases.table import cells
 from raycert.oracle.corpus.golden import known as exactly
@@ -72,7 +72,7 @@ def every(fmt: Format) -> list[Case]:
 
 def numbers(case: Case) -> tuple[float, ...]:
     """Return every number of a case."""
-    return numbers_of(Scene(case.solid, case.ray))
+    return numbers_of(Probe(case.solid, case.ray))
 
 
 def shape(solid: Solid) -> str:
