@@ -1,32 +1,58 @@
 """The certificate as JSON: what was tested, with what, what was not, and how to repeat it.
 
 Pure: it is told everything, the environment too. Every report is rendered from this alone;
-schemas/certificate.schema.json describes it.
+schemas/certificate.schema.json describes it. Reals are hex-float strings, so that what is read back
+is what was compared; infinite errors are null.
+
+In the order of the file: the certificate, its solids and families, the case table, the worst
+answers, and what is said of one answer.
 """
 
 from __future__ import annotations
 
 import shlex
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass
+from math import isfinite
 from typing import Any
 
+from raycert.cases.accept import Numbers
 from raycert.cases.corpus import FORMAT_VERSION, Corpus
+from raycert.cases.forms import write_ray, write_solid
 from raycert.cases.levels import LEVELS, Level
+from raycert.cases.model import Tree
 from raycert.cases.protocol import Hello
-from raycert.oracle.certify.coverage import case_table
-from raycert.oracle.certify.evidence import answered, case, failure, worst
-from raycert.oracle.certify.grading import Grade
-from raycert.oracle.certify.verdict import Group, Touches, Verdict, Window, by_family, by_solid
+from raycert.cases.row import End, GoldenRow
+from raycert.cases.table import PROBLEM_1, PROBLEM_2, Row, cells, pairs_of_rows
+from raycert.oracle.certify.grading import Grade, by_convention, usual
+from raycert.oracle.certify.selection import Left
+from raycert.oracle.certify.verdict import (
+    Group,
+    Tally,
+    Touches,
+    Verdict,
+    Window,
+    by_family,
+    by_solid,
+    severity,
+)
+from raycert.oracle.judge.answer import First, YesNo
+from raycert.oracle.judge.levels import MEASURES
+from raycert.oracle.zoo.matrix import kind as how
 
 Json = dict[str, Any]
+Repeat = Callable[[str], str]
+"""From a row's id to the command that asks it again."""
 CERTIFICATE_VERSION = 1
-MEASURED: tuple[Level, ...] = ("sound", "stable")
-"""The levels that a row may leave undecided."""
+DIFFERENCES = ("expected", "new", "unexpected_passes", "unmatched")
+"""What a file of known failures may have to say of a run."""
+MOST, MOST_PASSED = 12, 4
+"""How many worst cases are shown: of failures, and where nothing failed."""
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class Request:
     """What `certify` was asked: the level and convention, and of whom."""
 
     level: Level
@@ -52,7 +78,7 @@ class Asked:
 
 @dataclass(frozen=True, slots=True)
 class Ran:
-    """How the run went: what the harness saw beside the answers."""
+    """How the run went: what was seen beside the answers."""
 
     restarts: int
     notes: tuple[str, ...]
@@ -64,16 +90,8 @@ class Ran:
     """What the failing answers look like: the likely fault."""
 
 
-@dataclass(frozen=True, slots=True)
-class Left:
-    """What was not tested: solids the client did not declare, and rows outside the selection."""
-
-    solids: tuple[str, ...]
-    rows: int
-
-
 def certificate(
-    asked: Asked,
+    request: Request,
     hello: Hello,
     corpus: Corpus,
     grades: Sequence[Grade],
@@ -87,19 +105,23 @@ def certificate(
 ) -> Json:
     """Return the certificate of a run. `environment` is what `oracle.certify.environment` tells.
 
-    `expectations` says how the failures compare with a file of known ones: `file`, and the lists
-    `expected`, `unexpected_passes`, `unmatched`, `new`.
+    `expectations` says how the failures compare with a file of known ones: `file`, and a list for
+    each of DIFFERENCES. Known failures that were met keep a run from being granted, not from being
+    accepted.
     """
     passed = verdict.granted and not ran.interrupted
+    known = {name: expectations[name] for name in DIFFERENCES} if expectations else {}
+    surprises = any(known[name] for name in known if name != "expected")
     return {
         "certificate": CERTIFICATE_VERSION,
-        "granted": passed and not (asked.selection or shard or _departs(expectations)),
+        "granted": passed and not (request.selection or shard or any(known.values())),
         "passed": passed,
-        "accepted": _accepted(expectations, ran, grades),
+        "accepted": bool(known and grades and not ran.interrupted and not surprises),
         "reasons": list(verdict.reasons),
-        **_question(asked),
+        "asked": {"level": request.level, "convention": request.convention},
+        "selection": list(request.selection),
         "shard": shard,
-        "subject": {"command": list(asked.command), **asdict(hello)},
+        "subject": {"command": list(request.command), **asdict(hello)},
         "corpus": _corpus(corpus),
         "fresh": fresh,
         "tool": environment["tool"],
@@ -107,60 +129,10 @@ def certificate(
         "run": {**asdict(ran), "notes": list(ran.notes), "diagnosis": list(ran.diagnosis)},
         "tested": len(grades),
         "not_tested": {"solids": list(left.solids), "rows": left.rows},
-        **_results(asked, hello, grades),
+        **_results(request, hello, grades),
         "expectations": expectations,
         "standing": {"stress": None, "bench": None},
-        "reproduce": asked.repeat(*asked.fresh, *asked.selection),
-    }
-
-
-def _question(asked: Asked) -> Json:
-    """Return what was asked, and of which part of the corpus."""
-    return {
-        "asked": {"level": asked.level, "convention": asked.convention},
-        "selection": list(asked.selection),
-    }
-
-
-def _results(asked: Asked, hello: Hello, grades: Sequence[Grade]) -> Json:
-    """Return what the answers came to."""
-    groups = by_solid(grades)
-    return {
-        "not_decisive": _not_decisive(grades),
-        "solids": {group.name: _solid(group) for group in groups},
-        "families": [
-            _family(group, solid) for solid in groups for group in by_family(solid.grades)
-        ],
-        "table": case_table(grades, asked.level),
-        "worst": worst(grades, asked.level, hello, asked.repeat_row),
-        "failures": [failure(g, asked.repeat_row) for g in grades if g.faults],
-    }
-
-
-LISTS = ("expected", "new", "unexpected_passes", "unmatched")
-"""What a file of known failures may have to say of a run."""
-
-
-def _departs(expectations: Json | None) -> bool:
-    """Tell whether known failures were made use of, or are not as the file says."""
-    return expectations is not None and any(expectations[name] for name in LISTS)
-
-
-def _accepted(expectations: Json | None, ran: Ran, grades: Sequence[Grade]) -> bool:
-    """Tell whether a run is as its file of known failures expects, to the last row."""
-    if expectations is None or ran.interrupted or not grades:
-        return False
-    return not any(expectations[name] for name in LISTS[1:])
-
-
-def _not_decisive(grades: Sequence[Grade]) -> Json:
-    usual = [g for g in grades if g.row.tier != "range"]
-    return {
-        level: {
-            "rows": [g.row.id for g in usual if not g.counts(level)],
-            "outside": [g.row.id for g in usual if level in g.outside],
-        }
-        for level in MEASURED
+        "reproduce": request.repeat(*request.fresh, *request.selection),
     }
 
 
@@ -174,6 +146,28 @@ def _corpus(corpus: Corpus) -> Json:
     }
 
 
+def _results(request: Request, hello: Hello, grades: Sequence[Grade]) -> Json:
+    """Return what the answers came to."""
+    level, repeat, groups = request.level, request.repeat_row, by_solid(grades)
+    return {
+        "not_decisive": {name: _not_decisive(usual(grades), name) for name in MEASURES},
+        "solids": {group.name: _solid(group) for group in groups},
+        "families": [
+            _family(family, solid.name) for solid in groups for family in by_family(solid.grades)
+        ],
+        "table": case_table(grades, level),
+        "worst": worst(grades, level, hello, repeat),
+        "failures": [_failure(g, repeat) for g in grades if g.faults],
+    }
+
+
+def _not_decisive(grades: Sequence[Grade], level: Level) -> Json:
+    return {
+        "rows": [g.row.id for g in grades if not g.counts(level)],
+        "outside": [g.row.id for g in grades if level in g.outside],
+    }
+
+
 def _solid(group: Group) -> Json:
     touches = Touches.of(group.grades)
     return {
@@ -183,8 +177,8 @@ def _solid(group: Group) -> Json:
         "touches": {kind: {"kept": n, "of": of} for kind, (n, of) in touches.kept.items()},
         "windows": {
             level: {
-                "lengths": _window(Window.of(group.grades, level, 0)),
-                "directions": _window(Window.of(group.grades, level, 1)),
+                what: _window(Window.of(group.grades, level, which))
+                for which, what in enumerate(("lengths", "directions"))
             }
             for level in LEVELS
         },
@@ -192,34 +186,178 @@ def _solid(group: Group) -> Json:
 
 
 def _levels(group: Group) -> Json:
-    return {
-        level: {"granted": tally.granted, **asdict(tally)}
-        for level, tally in ((level, group.tally(level)) for level in LEVELS)
-    }
+    tallies = {level: group.tally(level) for level in LEVELS}
+    return {level: {"granted": t.granted, **asdict(t)} for level, t in tallies.items()}
 
 
 def _window(window: Window | None) -> list[int] | None:
     return None if window is None else [window.low, window.high]
 
 
-def _family(group: Group, solid: Group) -> Json:
+def _family(group: Group, solid: str) -> Json:
     grade = group.worst()
     return {
         "family": group.name,
-        "solid": solid.name,
+        "solid": solid,
         "rows": len(group.grades),
         "levels": _levels(group),
-        "worst": {**case(grade.row), **answered(grade)},
+        "worst": {**_case(grade.row), **_answered(grade)},
     }
 
 
-def contradictions(hello: Hello, grades: Sequence[Grade]) -> list[str]:
-    """Return where the answers contradict what the hello declared."""
-    found = []
-    for group in by_solid(grades):
-        touches = Touches.of(group.grades)
-        if not touches.follows(hello.convention):
-            found.append(
-                f"{group.name}: the hello says {hello.convention}, the answers are {touches.name}"
-            )
-    return found
+def case_table(grades: Sequence[Grade], level: Level) -> Json:
+    """Return the state of each row of the case table on a level; the range tier is left out.
+
+    `infinite_cylinder` has the rows of Problem 1, `slab` those of Problem 2, `cylinder` the pairs
+    of both. `cells` counts the pairs told apart by the comparisons of Problem 3.
+    """
+    by_type = {group.name: group.grades for group in by_solid(usual(grades))}
+
+    def state(solid: str, *rows: str) -> Json:
+        here = [g for g in by_type.get(solid, ()) if g.row.rows[: len(rows)] == rows]
+        failing = next((g.row.id for g in here if g.fault(level)), None)
+        return {**asdict(Tally.of(here, level)), "first_failing": failing}
+
+    def line(solid: str, row: Row) -> Json:
+        condition = ", ".join(f"{quantity} {relation}" for quantity, relation in row.condition)
+        head = {"rows": [row.name], "condition": condition, "pairs": row.pairs}
+        return {**head, **state(solid, row.name)}
+
+    reachable = set(cells())
+    return {
+        "infinite_cylinder": [line("infinite_cylinder", row) for row in PROBLEM_1],
+        "slab": [line("slab", row) for row in PROBLEM_2],
+        "cylinder": [{"rows": list(two), **state("cylinder", *two)} for two in pairs_of_rows()],
+        "cells": {
+            "reachable": len(reachable),
+            "tested": len({g.row.rows for g in by_type.get("cylinder", ())} & reachable),
+        },
+    }
+
+
+def worst(grades: Sequence[Grade], level: Level, hello: Hello, repeat: Repeat) -> list[Json]:
+    """Return the cases to look at first, with all that a picture of them needs.
+
+    Failures of the level, the gravest first, but each time the first of the family and the kind of
+    failure that were chosen least. Where nothing failed, the largest errors. The range tier is
+    left out.
+    """
+    failing = [g for g in usual(grades) if g.fault(level)]
+    passing = [] if failing else [g for g in usual(grades) if g.counts(level)]
+    ranked = [
+        (g, g.row.family, kind(g, level, hello))
+        for g in sorted(failing or passing, key=severity, reverse=True)
+    ]
+    chosen = _spread(ranked, MOST if failing else MOST_PASSED)
+    return [_pictured(g, name, level, hello, repeat) for g, _, name in chosen]
+
+
+def _spread(ranked: Sequence[tuple[Grade, str, str]], most: int) -> list[tuple[Grade, str, str]]:
+    """Return up to `most` of a ranking: each time the first of the family and kind least chosen.
+
+    Of these a lone leaf before a tree, which is harder to see through.
+    """
+    left, chosen = list(ranked), list[tuple[Grade, str, str]]()
+    times: Counter[tuple[str, str]] = Counter()
+
+    def rank(item: tuple[Grade, str, str]) -> tuple[int, int, bool]:
+        grade, family, kind = item
+        return times["family", family], times["kind", kind], isinstance(grade.row.solid, Tree)
+
+    while left and len(chosen) < most:
+        best = min(left, key=rank)
+        left.remove(best)
+        chosen.append(best)
+        times.update((("family", best[1]), ("kind", best[2])))
+    return chosen
+
+
+def _pictured(g: Grade, name: str, level: Level, hello: Hello, repeat: Repeat) -> Json:
+    inner, outer = _band(g, level, hello)
+    return {
+        **_failure(g, repeat),
+        "kind": name,
+        "rows": list(g.row.rows),
+        "exact": [
+            {"enter": _end(s.enter), "leave": _end(s.leave), "touch": s.touch}
+            for s in g.row.intervals
+        ],
+        "accept": {"level": level, "inner": _pairs(inner), "outer": _pairs(outer)},
+    }
+
+
+def _end(end: End) -> Json:
+    return {"digits": end.digits, "kind": end.kind, "faces": list(end.faces)}
+
+
+def kind(grade: Grade, level: Level, hello: Hello) -> str:
+    """Return in a word how an answer fails a level: crash, missed, phantom, ...; or `passed`."""
+    fault = grade.fault(level)
+    if fault is None:
+        return "passed"
+    if grade.said is None:
+        return fault.partition(":")[0]
+    if grade.said.malformed(grade.judge):
+        return "malformed"
+    if grade.answer is None:
+        return "wrong"
+    inner, outer = _band(grade, level, hello)
+    return how(outer, inner, grade.answer)
+
+
+def _band(grade: Grade, level: Level, hello: Hello) -> tuple[Numbers, Numbers]:
+    """Return the inner and the outer list of numbers between which a level wants the answer."""
+    if level in MEASURES:
+        accept = grade.accept(level)
+        return accept.inner, accept.outer
+    wanted, around = by_convention(grade.row, grade.judge, hello)
+    if level == "exact":
+        return wanted, wanted
+    narrow = ((enter[1], leave[0]) for enter, leave in around)
+    inner = tuple((a, b) for a, b in narrow if a <= b)
+    return inner, tuple((enter[0], leave[1]) for enter, leave in around)
+
+
+def _failure(grade: Grade, repeat: Repeat) -> Json:
+    """Return one failing row: why, what was answered, and the command that repeats it."""
+    return {
+        **_case(grade.row),
+        "why": grade.row.why,
+        "tier": grade.row.tier,
+        "faults": dict(grade.faults),
+        **_answered(grade),
+        "reproduce": repeat(grade.row.id),
+    }
+
+
+def _case(row: GoldenRow) -> Json:
+    return {"id": row.id, "solid": write_solid(row.solid, "hex"), "ray": write_ray(row.ray, "hex")}
+
+
+def _answered(grade: Grade) -> Json:
+    """Return what was answered and expected, and the errors between."""
+    errors = {"strict_k": grade.strict, "squared_k": grade.squared, "ulps": grade.ulps}
+    return {
+        "answer": _pairs(grade.answer),
+        "reply": _reply(grade),
+        "expected": _pairs(grade.row.expected),
+        **{name: x if isfinite(x) else None for name, x in errors.items()},
+    }
+
+
+def _reply(grade: Grade) -> Json | None:
+    """Return what was answered instead of a list: a first hit, or a yes or no; else None."""
+    match grade.said:
+        case First(t):
+            return {"first": None if t is None else _real(t)}
+        case YesNo(hit):
+            return {"hit": hit}
+    return None
+
+
+def _pairs(numbers: Iterable[tuple[float, float]] | None) -> list[list[str]] | None:
+    return None if numbers is None else [[_real(x) for x in pair] for pair in numbers]
+
+
+def _real(x: float) -> str:
+    return x.hex() if isfinite(x) else str(x)

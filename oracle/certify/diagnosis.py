@@ -1,19 +1,25 @@
-"""The likely fault: whose answers are these? The failing ones are compared with those of the zoo.
+"""What the answers of a run have in common: the likely fault, and where they belie the hello.
 
-A fault is named if it explains the run both ways: the share of rows on which the answers agree, of
-all rows that the subject or the fault fails, is at least SHARE. It has to be the only such fault,
-and more than a few rows have to agree. Otherwise nothing is said.
+Whose answers are these? The failing ones are compared with those of the zoo. A fault is named if it
+explains the run both ways: the share of rows on which the answers agree, of all rows that the
+subject or the fault fails, is at least SHARE. It has to be the only such fault, and more than a few
+rows have to agree. Otherwise nothing is said. Contradictions of the hello stand beside the verdict,
+which they do not change.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from math import isinf, isnan, ldexp
 
 from raycert.cases.accept import Numbers
-from raycert.cases.formats import Format
-from raycert.cases.levels import Level
-from raycert.oracle.certify.grading import Grade
+from raycert.cases.formats import BINARY32, BINARY64, Format
+from raycert.cases.levels import Level, upto
+from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello
+from raycert.oracle.certify.grading import Grade, usual
+from raycert.oracle.certify.verdict import Touches, by_solid
+from raycert.oracle.judge.answer import First, Listed
 from raycert.oracle.zoo.catalog import FAULTS
 from raycert.oracle.zoo.fault import Fault
 from raycert.oracle.zoo.matrix import Bench, Outcome
@@ -51,7 +57,7 @@ def diagnose(grades: Sequence[Grade]) -> list[str]:
 
 def failures(grades: Sequence[Grade]) -> tuple[Level, list[Grade]]:
     """Return the failures to explain: of `sound`; of `stable` where those are only a few."""
-    counted = [g for g in grades if g.row.tier != "range"]
+    counted = usual(grades)
     gross = [g for g in counted if g.fault("sound")]
     if len(gross) >= LEAST:
         return "sound", gross
@@ -59,7 +65,7 @@ def failures(grades: Sequence[Grade]) -> tuple[Level, list[Grade]]:
 
 
 def _plausible(fault: Fault, failing: Sequence[Grade]) -> bool:
-    """Tell whether a fault may explain the failures, by a sample of them."""
+    """Whether a fault may explain the failures, by a sample of them."""
     step = max(len(failing) // SAMPLE, 1)
     sample, tracer = failing[::step], fault.make()
     spare = (1 - SHARE) * len(sample) + 1
@@ -83,7 +89,7 @@ def explained(
         return 0, 0.0
     tried = list(zip(grades, outcomes, bench.base, strict=True))
     agreed = sum(agrees(g, outcome) for g, outcome, _ in tried if g.row.id in ids)
-    levels = ("sound",) if level == "sound" else ("sound", "stable")
+    levels = upto(level)
     others = 0
     for g, outcome, base in tried:
         if g.row.id not in ids and g.row.tier != "range" and outcome != base:
@@ -106,7 +112,7 @@ def _outcomes(fault: Fault, grades: Sequence[Grade], failing: set[str]) -> list[
 
 
 def agrees(grade: Grade, outcome: Outcome) -> bool:
-    """Tell whether a graded answer is that of a fault, but for roundings.
+    """Whether a graded answer is that of a fault, but for roundings.
 
     No answer agrees with none, NaN with NaN wherever it stands, and a list with one as long.
     """
@@ -117,7 +123,7 @@ def agrees(grade: Grade, outcome: Outcome) -> bool:
 
 
 def close(one: Numbers, other: Numbers, fmt: Format) -> bool:
-    """Tell whether two lists differ by some roundings of their largest number."""
+    """Whether two lists differ by some roundings of their largest number."""
     ends, others = [x for pair in one for x in pair], [x for pair in other for x in pair]
     if any(map(isnan, ends)) or any(map(isnan, others)):
         return any(map(isnan, ends)) and any(map(isnan, others))
@@ -126,3 +132,77 @@ def close(one: Numbers, other: Numbers, fmt: Format) -> bool:
     size = max((abs(x) for x in (*ends, *others) if not isinf(x)), default=0.0)
     slack = ldexp(size, SLACK - fmt.precision)
     return all(a == b or abs(a - b) <= slack for a, b in zip(ends, others, strict=True))
+
+
+FEW = 8
+"""Fewer rows than these show no habit."""
+
+
+def contradictions(hello: Hello, grades: Sequence[Grade]) -> list[str]:
+    """Return what the hello says and the answers do not bear out, a sentence each."""
+    return [
+        *_convention(hello, grades),
+        *_unsupported(grades),
+        *_from_inside(hello, grades),
+        *_precision(hello, grades),
+    ]
+
+
+def _convention(hello: Hello, grades: Sequence[Grade]) -> Iterator[str]:
+    for group in by_solid(grades):
+        touches = Touches.of(group.grades)
+        if not touches.follows(hello.convention):
+            yield f"{group.name}: the hello says {hello.convention}, the answers are {touches.name}"
+
+
+def _unsupported(grades: Sequence[Grade]) -> Iterator[str]:
+    """Yield solids that are declared, and not one of which is answered."""
+    for group in by_solid(grades):
+        faults = [g.faults.get("sound", "") for g in group.grades]
+        if all(text.startswith("unsupported: ") for text in faults):
+            yield (
+                f"{group.name}: the hello declares it, and all {len(faults)} answers are "
+                f"{faults[0]!r:.100}; leave it out of `solids`, and it is listed as not tested"
+            )
+
+
+def _from_inside(hello: Hello, grades: Sequence[Grade]) -> Iterator[str]:
+    """Yield a mode that the starts inside do not fit, where another one does."""
+    starts = [g for g in grades if isinstance(g.said, First) and g.row.accept["sound"].inner]
+    inside = [g for g in starts if g.row.accept["sound"].inner[0][0] == 0]
+    if len(inside) < FEW or 2 * _fits(inside, hello.from_inside) > len(inside):
+        return
+    best = max(FROM_INSIDE, key=lambda mode: _fits(inside, mode))
+    if 10 * _fits(inside, best) >= 9 * len(inside):
+        yield (
+            f"the hello says from_inside {hello.from_inside!r}, and {_fits(inside, best)} of "
+            f"{len(inside)} answers from inside are those of {best!r}"
+        )
+
+
+def _fits(grades: Sequence[Grade], mode: FromInside) -> int:
+    firsts = [(g.said, g.row.accept["sound"]) for g in grades if isinstance(g.said, First)]
+    return sum(replace(said, from_inside=mode).fault(accept) is None for said, accept in firsts)
+
+
+def _precision(hello: Hello, grades: Sequence[Grade]) -> Iterator[str]:
+    """Yield answers that are all binary32 numbers, where hardly a right one would be."""
+    if hello.format is not BINARY64:
+        return
+    telling = [x for g in grades for x, t in _numbers(g) if not _is_single(t)]
+    if len(telling) >= FEW and all(map(_is_single, telling)):
+        yield (
+            "the hello says binary64, and every number in the answers is a binary32 number: they "
+            "are rounded to single precision somewhere, or `precision` has to be binary32"
+        )
+
+
+def _numbers(grade: Grade) -> Iterator[tuple[float, float]]:
+    """Yield each finite number that was answered with the one that was expected."""
+    if isinstance(grade.said, Listed) and len(grade.said.pairs) == len(grade.row.expected):
+        for pair, wanted in zip(grade.said.pairs, grade.row.expected, strict=True):
+            yield from ((x, t) for x, t in zip(pair, wanted, strict=True) if not isinf(x))
+
+
+def _is_single(x: float) -> bool:
+    return x == BINARY32.nearest(x)

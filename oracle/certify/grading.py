@@ -6,12 +6,12 @@ exact judge. A failure to answer fails every level.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf
 
-from raycert.cases.accept import Numbers
+from raycert.cases.accept import Accept, Numbers
 from raycert.cases.levels import LEVELS, Level
 from raycert.cases.protocol import Hello, Reply, convention
 from raycert.cases.row import GoldenRow
@@ -25,10 +25,10 @@ from raycert.oracle.judge.levels import MEASURES, Enclosures, Judge
 class Grade:
     """What came of one row. `faults` names, for each level it fails, the reason.
 
-    `outside` does so for the levels that the row does not decide; it is told, and not counted.
-    `said` is None where there was no answer. The errors are measured when they are asked for:
-    `strict` and `squared` are the backward errors k, `ulps` the forward error; infinite where the
-    answer is none, or has another number of pairs.
+    `outside` does so for the levels that the row does not decide: reported, and not counted. `said`
+    is None where there was no answer. The errors are measured when they are asked for: `strict`
+    and `squared` are the backward errors k, `ulps` the forward error; infinite where the answer is
+    none, or has another number of pairs.
     """
 
     row: GoldenRow
@@ -63,31 +63,44 @@ class Grade:
         return self.faults.get(level)
 
     def counts(self, level: Level) -> bool:
-        """Tell whether the row decides a level, or fails whatever it decides."""
+        """Whether the row decides a level, or fails whatever it decides."""
         return level in self.decides or level in self.faults
+
+    def accept(self, level: Level) -> Accept:
+        """Return the lists of `sound` or `stable`: the row's own, but for a declared tolerance."""
+        return accept(self.row, self.judge, level)
 
     @property
     def keeps_touch(self) -> bool | None:
-        """Tell whether a touch was kept as a pair; None where the row has none to grade."""
+        """Whether a touch was kept as a pair; None where the row has none to grade."""
         touched = any(span.touch for span in self.row.intervals)
         if self.row.tier != "lattice" or not touched or self.said is None:
             return None
         return self.said.keeps_touch(self.row.expected)
 
 
+def usual(grades: Iterable[Grade]) -> list[Grade]:
+    """Return the grades that levels are about: those of the range tier are part of no level."""
+    return [g for g in grades if g.row.tier != "range"]
+
+
 def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
     """Return the grade of what an implementation answered to a row."""
     judge = Judge(row.solid, row.ray, hello.format, row.tier, hello.tolerance)
-    failure = _failure(outcome)
-    if failure is not None:
-        return Grade(row, None, dict.fromkeys(LEVELS, failure), judge, row.decisive)
-    assert isinstance(outcome, Reply)
-    said = claim(outcome, hello)
-    malformed = said.malformed(judge)
-    if malformed is not None:
-        return Grade(row, said, dict.fromkeys(LEVELS, malformed), judge, row.decisive)
+    said = None if isinstance(outcome, Failure) or _refusal(outcome) else claim(outcome, hello)
+    whole = _refusal(outcome) if said is None else said.malformed(judge)
+    if whole is not None:
+        return Grade(row, said, dict.fromkeys(LEVELS, whole), judge, row.decisive)
+    assert said is not None
+    faults: dict[str, str] = {}
+    outside: dict[str, str] = {}
     decides = deciding(row, judge)
-    faults, outside = _faults(row, said, judge, hello, decides)
+    for level in LEVELS:
+        fault = _level_fault(level, row, said, judge, hello)
+        if level not in decides:
+            outside |= {level: fault} if fault else {}
+        elif fault or faults:  # what fails a level fails those above it
+            faults[level] = fault or next(reversed(faults.values()))
     return Grade(row, said, faults, judge, decides, outside)
 
 
@@ -102,7 +115,8 @@ def deciding(row: GoldenRow, judge: Judge) -> tuple[str, ...]:
     return decisive(judge) if judge.scene.tolerance_is_fine() else finer
 
 
-def _failure(outcome: Reply | Failure) -> str | None:
+def _refusal(outcome: Reply | Failure) -> str | None:
+    """Return why there is no answer in an outcome; None if there is one."""
     if isinstance(outcome, Failure):
         return f"{outcome.kind}: {outcome.detail}"
     if outcome.unsupported is not None:
@@ -110,33 +124,23 @@ def _failure(outcome: Reply | Failure) -> str | None:
     return None if outcome.error is None else f"error: {outcome.error}"
 
 
-def _faults(
-    row: GoldenRow, said: Claim, judge: Judge, hello: Hello, decides: Collection[str]
-) -> tuple[dict[str, str], dict[str, str]]:
-    """Return the reasons why the answer fails levels: those the row decides, and the others."""
-    faults: dict[str, str] = {}
-    outside: dict[str, str] = {}
-    for level in LEVELS:
-        fault = _level_fault(level, row, said, judge, hello)
-        if level not in decides:
-            outside |= {level: fault} if fault else {}
-        elif fault or faults:
-            faults[level] = fault or next(reversed(faults.values()))
-    return faults, outside
-
-
 def _level_fault(
     level: Level, row: GoldenRow, said: Claim, judge: Judge, hello: Hello
 ) -> str | None:
     match level:
         case "sound" | "stable":
-            return said.fault(judge.accept(level) if hello.tolerance else row.accept[level])
+            return said.fault(accept(row, judge, level))
         case "faithful":
-            return said.is_faithful(*kept(row, judge, hello))
-    return said.is_expected(kept(row, judge, hello)[0])
+            return said.is_faithful(*by_convention(row, judge, hello))
+    return said.is_expected(by_convention(row, judge, hello)[0])
 
 
-def kept(row: GoldenRow, judge: Judge, hello: Hello) -> tuple[Numbers, Enclosures]:
+def accept(row: GoldenRow, judge: Judge, level: Level) -> Accept:
+    """Return the lists that decide `sound` or `stable`, those of the judge's tolerance if any."""
+    return judge.accept(level) if judge.tolerance else row.accept[level]
+
+
+def by_convention(row: GoldenRow, judge: Judge, hello: Hello) -> tuple[Numbers, Enclosures]:
     """Return the expected list, and the numbers around its ends.
 
     The touches that the declared convention drops are left out.

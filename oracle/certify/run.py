@@ -17,20 +17,18 @@ from raycert.cases.corpus import GOLDEN, Corpus, read_corpus
 from raycert.cases.levels import Level
 from raycert.cases.protocol import Hello
 from raycert.cases.row import GoldenRow
-from raycert.oracle.certify.certificate import Asked, Json, Left, Ran, certificate
-from raycert.oracle.certify.contradictions import contradictions
-from raycert.oracle.certify.diagnosis import diagnose
+from raycert.oracle.certify.certificate import Json, Ran, Request, certificate
+from raycert.oracle.certify.diagnosis import contradictions, diagnose
 from raycert.oracle.certify.environment import environment
-from raycert.oracle.certify.expectations import Expectations
-from raycert.oracle.certify.expected import Matched, failed_level, match, record
 from raycert.oracle.certify.grading import Grade, grade
-from raycert.oracle.certify.selection import Selection, able, select
+from raycert.oracle.certify.known import Expectations, Matched, failed_level, match, record
+from raycert.oracle.certify.selection import Left, Selection, able, select
 from raycert.oracle.certify.verdict import Verdict, severity, verdict
 from raycert.oracle.client.dialogue import Target
 from raycert.oracle.client.easy import easy
 from raycert.oracle.client.harness import Failure, Interrupted, Limits, Outcome, Question, greet
 from raycert.oracle.client.harness import run as ask
-from raycert.oracle.client.smoke import diagnose as diagnose_adapter
+from raycert.oracle.client.smoke import adapter_faults
 from raycert.oracle.client.smoke import limits as soon
 from raycert.oracle.corpus.fresh import Fresh, fresh_rows
 
@@ -136,9 +134,9 @@ class Result:
         shard, fresh = plan.selection.shard, plan.fresh
         narrowed, drawn = plan.selection.options(), fresh.options() if fresh else ()
         other = () if plan.golden == GOLDEN else ("--golden", str(plan.golden))
-        asked = Asked(plan.level, plan.convention, tuple(command), narrowed, drawn, other)
+        request = Request(plan.level, plan.convention, tuple(command), narrowed, drawn, other)
         return certificate(
-            asked,
+            request,
             prepared.hello,
             prepared.corpus,
             self.grades,
@@ -218,7 +216,7 @@ def smoke(plan: Plan, hello: Hello, watch: Watch) -> list[str]:
     cases = easy(hello)
     questions = [case.question for case in cases]
     outcomes = ask(plan.target, questions, soon(plan.limits)).outcomes
-    said = diagnose_adapter(cases, outcomes)
+    said = adapter_faults(cases, outcomes)
     for line in said:
         watch.note(line)
     if cases and all(isinstance(outcome, Failure) for outcome in outcomes.values()):

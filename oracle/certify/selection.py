@@ -15,7 +15,6 @@ from raycert.cases.corpus import Corpus
 from raycert.cases.model import type_of, types
 from raycert.cases.protocol import Hello
 from raycert.cases.row import GoldenRow
-from raycert.oracle.certify.certificate import Left
 from raycert.oracle.zoo.smoke import smoke
 
 MOST_SHARDS = 1000
@@ -47,13 +46,26 @@ class Shard:
         return f"{self.number}/{self.of}"
 
     def takes(self, id: str) -> bool:
-        """Tell whether the row with this id is in the shard."""
+        """Whether the row with this id is in the shard."""
         digest = sha256(id.encode()).digest()
         return int.from_bytes(digest[:8], "big") % self.of == self.number - 1
 
 
 NAMES = {"solids": "--solid", "tiers": "--tier", "families": "--family", "ids": "--id"}
 """The fields of a selection that list values, each with its option."""
+
+
+def _values(row: GoldenRow) -> dict[str, str]:
+    """Return what a row has in each of these fields."""
+    return {"solids": type_of(row.solid), "tiers": row.tier, "families": row.family, "ids": row.id}
+
+
+@dataclass(frozen=True, slots=True)
+class Left:
+    """What was not tested: solids the client did not declare, and rows outside the selection."""
+
+    solids: tuple[str, ...]
+    rows: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,14 +81,9 @@ class Selection:
     """Only the smoke rows, which `select` knows."""
 
     def takes(self, row: GoldenRow) -> bool:
-        """Tell whether a row is selected."""
-        asked: tuple[tuple[tuple[str, ...], str], ...] = (
-            (self.solids, type_of(row.solid)),
-            (self.tiers, row.tier),
-            (self.families, row.family),
-            (self.ids, row.id),
-        )
-        named = all(not wanted or value in wanted for wanted, value in asked)
+        """Whether a row is selected."""
+        values = _values(row).items()
+        named = all(value in (getattr(self, name) or (value,)) for name, value in values)
         return named and (self.shard is None or self.shard.takes(row.id))
 
     def options(self) -> tuple[str, ...]:
@@ -92,18 +99,9 @@ class Selection:
 
     def missing(self, corpus: Corpus, fresh: Sequence[GoldenRow] = ()) -> list[str]:
         """Return what is asked for and neither in the corpus nor among the fresh rows."""
-        rows = (*corpus.rows, *fresh)
-        there: dict[str, set[str]] = {
-            "solids": {type_of(row.solid) for row in rows},
-            "tiers": {row.tier for row in rows},
-            "families": {row.family for row in rows},
-            "ids": {row.id for row in rows},
-        }
+        known = {item for row in (*corpus.rows, *fresh) for item in _values(row).items()}
         return [
-            value
-            for name, known in there.items()
-            for value in getattr(self, name)
-            if value not in known
+            value for name in NAMES for value in getattr(self, name) if (name, value) not in known
         ]
 
 
@@ -121,17 +119,10 @@ def select(
     `fresh` rows are asked beside those of the corpus, and narrowed like them.
     """
     every = (*corpus.rows, *fresh)
-    golden = _smoke(corpus) if selection.smoke else corpus.rows
+    golden = corpus.rows
+    if selection.smoke:  # in their own order; those that another corpus lacks are left out
+        by_id = {row.id: row for row in corpus.rows}
+        golden = tuple(by_id[id] for id in smoke(corpus.precision) if id in by_id)
     rows = [row for row in able((*golden, *fresh), hello) if selection.takes(row)]
-    left = sorted({type_of(row.solid) for row in every} - _roots(rows))
-    return rows, Left(tuple(left), len(every) - len(rows))
-
-
-def _smoke(corpus: Corpus) -> list[GoldenRow]:
-    """Return the smoke rows in their order; those that another corpus lacks are left out."""
-    rows = {row.id: row for row in corpus.rows}
-    return [rows[id] for id in smoke(corpus.precision) if id in rows]
-
-
-def _roots(rows: Sequence[GoldenRow]) -> set[str]:
-    return {type_of(row.solid) for row in rows}
+    roots = [{type_of(row.solid) for row in some} for some in (every, rows)]
+    return rows, Left(tuple(sorted(roots[0] - roots[1])), len(every) - len(rows))

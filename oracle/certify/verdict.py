@@ -14,7 +14,7 @@ from raycert.cases.levels import LEVELS, Level, upto
 from raycert.cases.model import leaves, type_of
 from raycert.cases.protocol import TOUCHES, convention
 from raycert.cases.row import GoldenRow
-from raycert.oracle.certify.grading import Grade
+from raycert.oracle.certify.grading import Grade, usual
 from raycert.oracle.exact.grid import lengths
 
 
@@ -28,13 +28,13 @@ class Tally:
 
     @property
     def granted(self) -> bool:
-        """Tell whether the level is granted: something was tested, and nothing failed."""
+        """Whether the level is granted: something was tested, and nothing failed."""
         return self.passed > 0 and not self.failed
 
     @classmethod
     def of(cls, grades: Iterable[Grade], level: Level) -> Tally:
         """Count the rows, those of the range tier left out."""
-        rows = [g for g in grades if g.row.tier != "range"]
+        rows = usual(grades)
         failed = sum(g.fault(level) is not None for g in rows)
         counted = sum(g.counts(level) for g in rows)
         return cls(counted - failed, failed, len(rows) - counted)
@@ -51,8 +51,8 @@ class Touches:
         """Count the touches that were answered."""
         kept = {}
         for kind in TOUCHES:
-            answers = [g.keeps_touch for g in grades if kind in _kinds(g.row)]
-            graded = [answer for answer in answers if answer is not None]
+            met = [g for g in grades if any(span.touch == kind for span in g.row.intervals)]
+            graded = [g.keeps_touch for g in met if g.keeps_touch is not None]
             if graded:
                 kept[kind] = (sum(graded), len(graded))
         return cls(kept)
@@ -75,13 +75,9 @@ class Touches:
         return f"{base} but {' '.join(few)}"
 
     def follows(self, wanted: str) -> bool:
-        """Tell whether the answers follow a convention, on every kind that was tested."""
+        """Whether the answers follow a convention, on every kind that was tested."""
         keeps = convention(wanted)
         return all(n == (of if keeps[kind] else 0) for kind, (n, of) in self.kept.items())
-
-
-def _kinds(row: GoldenRow) -> set[str]:
-    return {span.touch for span in row.intervals if span.touch}
 
 
 USUAL = 64
@@ -176,13 +172,10 @@ class Verdict:
     reasons: tuple[str, ...]
 
 
-NOTHING = Verdict(False, ("nothing was tested",))
-
-
 def verdict(grades: Sequence[Grade], level: Level, wanted: str) -> Verdict:
     """Return the verdict on a run: every solid type tested reaches the level and the convention."""
-    if not any(g.counts(level) and g.row.tier != "range" for g in grades):
-        return NOTHING
+    if not any(g.counts(level) for g in usual(grades)):
+        return Verdict(False, ("nothing was tested",))
     reasons = []
     for group in by_solid(grades):
         for lower in upto(level):
@@ -199,7 +192,7 @@ def verdict(grades: Sequence[Grade], level: Level, wanted: str) -> Verdict:
 def _refusal(group: Group, level: Level, tally: Tally) -> str:
     if not tally.failed:
         return f"{group.name}: no row decides {level}"
-    families = by_family(g for g in group.grades if g.row.tier != "range" and g.fault(level))
+    families = by_family(g for g in usual(group.grades) if g.fault(level))
     names = ", ".join(f"{f.name} ({len(f.grades)})" for f in families[:6])
     more = f" and {len(families) - 6} more" if len(families) > 6 else ""
     of = tally.passed + tally.failed

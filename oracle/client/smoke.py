@@ -1,8 +1,8 @@
 """Is it the adapter? Easy cases that are asked first, and what their answers say of the adapter.
 
 The truths are written by hand, from solids along the axes, and no answer depends on a convention.
-`diagnose` blames the adapter only where most of the easy cases fail in one and the same way; it
-says nothing of a tracer that is merely wrong. Nothing here computes an intersection.
+`adapter_faults` blames the adapter only where most of the easy cases fail in one and the same way;
+it says nothing of a tracer that is merely wrong. Nothing here computes an intersection.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ def limits(usual: Limits) -> Limits:
     return replace(usual, in_a_row=2)
 
 
-def diagnose(asked: Sequence[Easy], outcomes: Mapping[str, Outcome]) -> list[str]:
+def adapter_faults(asked: Sequence[Easy], outcomes: Mapping[str, Outcome]) -> list[str]:
     """Return what is wrong with the adapter, in plain words; nothing if that cannot be said.
 
     A way to fail is named where more than half of the cases fail in it.

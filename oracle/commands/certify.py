@@ -32,7 +32,7 @@ from raycert.oracle.commands.options import (
 )
 
 if TYPE_CHECKING:
-    from raycert.oracle.certify.expectations import Expectations
+    from raycert.oracle.certify.known import Expectations
     from raycert.oracle.certify.run import Plan, Result
     from raycert.oracle.client.dialogue import Target
 
@@ -113,7 +113,7 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     A level is granted to a type of solid if every row that decides it passes. What TARGET does not
     declare is not sent, and listed as not tested. Nothing else is left out.
     """
-    from raycert.oracle.certify.expectations import write
+    from raycert.oracle.certify.known import write
     from raycert.oracle.reports.reading import verdict
 
     for option, out in (("--out", options["out"]), ("--write-expectations", options["record"])):
@@ -166,7 +166,7 @@ def _plan(target: tuple[str, ...], options: dict[str, Any]) -> Plan:
 
 
 def _expectations(path: Path | None) -> Expectations | None:
-    from raycert.oracle.certify.expectations import BadExpectations, read
+    from raycert.oracle.certify.known import BadExpectations, read
 
     try:
         return read(path.read_text("utf-8"), str(path)) if path else None

@@ -29,9 +29,8 @@ import pytest
 from raycert.cases.levels import LEVELS, Level
 
 if TYPE_CHECKING:
-    from raycert.oracle.certify.expectations import Expectations
-    from raycert.oracle.certify.expected import Matched
     from raycert.oracle.certify.grading import Grade
+    from raycert.oracle.certify.known import Expectations, Matched
     from raycert.oracle.certify.run import Plan, Prepared
 
 NAME = "raycert"
@@ -110,7 +109,7 @@ class Campaign:
         """Greet the target. Whatever keeps it from being tested is a `pytest.UsageError`."""
         from raycert.cases.corpus import BadCorpus
         from raycert.cases.protocol import BadLine
-        from raycert.oracle.certify.expectations import BadExpectations, Expectations
+        from raycert.oracle.certify.known import BadExpectations, Expectations
         from raycert.oracle.certify.run import NotInCorpus, Unsuitable, prepare
         from raycert.oracle.client.harness import Unusable
 
@@ -167,14 +166,14 @@ class Campaign:
         return [item.name for item in mine if item.name not in self.grades]
 
     def _match(self, grades: Sequence[Grade]) -> Matched:
-        from raycert.oracle.certify.expected import match
+        from raycert.oracle.certify.known import match
 
         level, convention = self.plan.level, self.plan.convention
         return match(self.expectations, grades, level, convention, self.prepared.known)
 
     def _failures(self, family: str, matched: Matched) -> Iterator[tuple[str, str]]:
         """Yield (name, text) of what failed and was not expected to."""
-        from raycert.oracle.certify.expected import failed_level
+        from raycert.oracle.certify.known import failed_level
 
         grades = {grade.row.id: grade for grade in self.grades[family]}
         for said in matched.new:
@@ -239,7 +238,7 @@ def _plan(config: pytest.Config) -> Plan:
 
 
 def _read(file: str) -> Expectations:
-    from raycert.oracle.certify.expectations import read
+    from raycert.oracle.certify.known import read
 
     try:
         return read(Path(file).read_text(encoding="utf-8"), file)

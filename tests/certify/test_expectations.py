@@ -12,15 +12,17 @@ from raycert.cases.levels import LEVELS, Level
 from raycert.cases.model import SOLIDS, type_of
 from raycert.cases.protocol import Hello, Reply
 from raycert.cases.row import GoldenRow
-from raycert.oracle.certify.expectations import (
+from raycert.oracle.certify.grading import Grade, grade
+from raycert.oracle.certify.known import (
     BadExpectations,
     Expectation,
     Expectations,
+    Matched,
+    match,
     read,
+    record,
     write,
 )
-from raycert.oracle.certify.expected import Matched, match, record
-from raycert.oracle.certify.grading import Grade, grade
 
 GOOD = """
 [[expect]]

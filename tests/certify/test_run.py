@@ -14,7 +14,7 @@ import pytest
 
 from raycert import oracle
 from raycert.cases.corpus import GOLDEN, MANIFEST, manifest, read_corpus
-from raycert.oracle.certify.expectations import Expectation, Expectations
+from raycert.oracle.certify.known import Expectation, Expectations
 from raycert.oracle.certify.run import (
     BLOCK,
     NotInCorpus,

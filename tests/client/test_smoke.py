@@ -27,7 +27,7 @@ from raycert.cases.model import (
 from raycert.cases.protocol import Hello, Pairs, Reply
 from raycert.oracle.client.easy import EASY, Easy, easy
 from raycert.oracle.client.harness import Failure, Limits, Outcome, run
-from raycert.oracle.client.smoke import diagnose, limits
+from raycert.oracle.client.smoke import adapter_faults, limits
 
 Point = tuple[Fraction, ...]
 DECLARED = [
@@ -147,7 +147,7 @@ FAULTS: list[tuple[str, Callable[[int, Easy], Pairs]]] = [
 
 def every(answer: Callable[[int, Easy], Pairs], declared: list[str]) -> list[str]:
     cases = easy(Hello("x", solids=tuple(declared)))
-    return diagnose(cases, outcomes(cases, answer))
+    return adapter_faults(cases, outcomes(cases, answer))
 
 
 @pytest.mark.parametrize(
@@ -190,7 +190,7 @@ def test_radius_and_diameter_are_told_apart(declared: list[str]):
 @pytest.mark.parametrize("declared", DECLARED, ids="+".join)
 def test_answers_of_the_question_before_are_named(declared: list[str]):
     cases = easy(Hello("x", solids=tuple(declared)))
-    (said,) = diagnose(cases, outcomes(cases, lambda n, _: cases[n - 1].truth if n else ()))
+    (said,) = adapter_faults(cases, outcomes(cases, lambda n, _: cases[n - 1].truth if n else ()))
     assert "off by one" in said
 
 
@@ -221,7 +221,7 @@ def test_a_misreading_of_some_questions_only_is_the_tracers():
     cases = easy(Hello("x"))
     given = outcomes(cases, some)
     assert sum(given[c.question.id] != outcomes((c,), scaled(0))[c.question.id] for c in cases) > 16
-    assert diagnose(cases, given) == []
+    assert adapter_faults(cases, given) == []
 
 
 CYLINDERS = easy(Hello("x", solids=("cylinder",)))
@@ -246,7 +246,7 @@ def all_failing(failure: Failure) -> dict[str, Outcome]:
     ],
 )
 def test_a_common_failure_is_put_in_plain_words(failure: Failure, says: str):
-    (said,) = diagnose(CYLINDERS, all_failing(failure))
+    (said,) = adapter_faults(CYLINDERS, all_failing(failure))
     assert says in said
 
 
@@ -256,16 +256,16 @@ def test_failures_of_different_kinds_are_not_explained_away():
         case.question.id: Failure(kind, "x", "y")  # type: ignore[arg-type]
         for case, kind in zip(CYLINDERS, kinds, strict=True)
     }
-    assert "in different ways" in diagnose(CYLINDERS, given)[0]
+    assert "in different ways" in adapter_faults(CYLINDERS, given)[0]
 
 
 def test_a_few_failures_are_left_to_the_verdict():
     given = outcomes(CYLINDERS, lambda _, case: case.truth)
     for case in CYLINDERS[:5]:
         given[case.question.id] = Failure("hang", "no answer")
-    assert diagnose(CYLINDERS, given) == []
-    assert diagnose(CYLINDERS, {}) == []
-    assert diagnose((), {}) == []
+    assert adapter_faults(CYLINDERS, given) == []
+    assert adapter_faults(CYLINDERS, {}) == []
+    assert adapter_faults((), {}) == []
 
 
 @pytest.mark.parametrize("field", ["unsupported", "error"])
@@ -274,7 +274,7 @@ def test_a_client_that_declines_what_it_declared_is_told(field: str):
         case.question.id: replace(Reply(case.question.id), **{field: "no caps"})
         for case in CYLINDERS
     }
-    (said,) = diagnose(CYLINDERS, given)
+    (said,) = adapter_faults(CYLINDERS, given)
     assert "'no caps'" in said
     assert "`solids`" in said
 
@@ -284,18 +284,20 @@ def first(change: Callable[[Easy], float | None]) -> dict[str, Outcome]:
 
 
 def test_a_first_hit_is_compared_with_the_first_of_the_truth():
-    assert diagnose(CYLINDERS, first(lambda c: c.truth[0][0] if c.truth else None)) == []
-    (said,) = diagnose(CYLINDERS, first(lambda c: c.truth[0][0] * c.speed if c.truth else None))
+    assert adapter_faults(CYLINDERS, first(lambda c: c.truth[0][0] if c.truth else None)) == []
+    (said,) = adapter_faults(
+        CYLINDERS, first(lambda c: c.truth[0][0] * c.speed if c.truth else None)
+    )
     assert "distances" in said
-    assert "with a miss" in diagnose(CYLINDERS, first(lambda _: None))[0]
+    assert "with a miss" in adapter_faults(CYLINDERS, first(lambda _: None))[0]
 
 
 def test_a_yes_is_compared_with_whether_there_is_a_hit():
     def hits(change: Callable[[Easy], bool]) -> dict[str, Outcome]:
         return {case.question.id: Reply(case.question.id, hit=change(case)) for case in CYLINDERS}
 
-    assert diagnose(CYLINDERS, hits(lambda case: bool(case.truth))) == []
-    assert "with a miss" in diagnose(CYLINDERS, hits(lambda case: False))[0]
+    assert adapter_faults(CYLINDERS, hits(lambda case: bool(case.truth))) == []
+    assert "with a miss" in adapter_faults(CYLINDERS, hits(lambda case: False))[0]
 
 
 def test_a_client_that_does_not_flush_is_diagnosed_soon():
@@ -304,7 +306,7 @@ def test_a_client_that_does_not_flush_is_diagnosed_soon():
     result = run(
         [sys.executable, str(script), "late"], [c.question for c in CYLINDERS], limits(usual)
     )
-    (said,) = diagnose(CYLINDERS, result.outcomes)
+    (said,) = adapter_faults(CYLINDERS, result.outcomes)
     assert "fflush" in said
     assert "only when its input was closed" in said
 

@@ -10,9 +10,10 @@ from raycert.cases.levels import Level
 from raycert.cases.model import Ray, Solid
 from raycert.cases.protocol import Hello, Reply
 from raycert.cases.row import GoldenRow
-from raycert.oracle.certify.certificate import Asked, Left, Ran, certificate
+from raycert.oracle.certify.certificate import Ran, Request, certificate
 from raycert.oracle.certify.environment import environment
 from raycert.oracle.certify.grading import Grade, grade
+from raycert.oracle.certify.selection import Left
 from raycert.oracle.certify.verdict import verdict
 from raycert.oracle.client.process import Failure
 from raycert.oracle.zoo.catalog import BY_NAME
@@ -91,7 +92,7 @@ def made(
     hello = hello or Hello("a tracer", "1.0")
     rows = sample() if rows is None else rows
     grades: list[Grade] = [grade(row, answer(row, n), hello) for n, row in enumerate(rows)]
-    asked = Asked(level, "closed", ("--", "./tracer"), selection)
+    asked = Request(level, "closed", ("--", "./tracer"), selection)
     ran = Ran(1, ("a note",), 1.25, interrupted, "2026-01-02T03:04:05+00:00", ("likely this",))
     judged = verdict(grades, level, "closed")
     form = certificate(

@@ -22,7 +22,7 @@ from raycert.cases.formats import BINARY32
 from raycert.cases.levels import LEVELS
 from raycert.cases.protocol import TOUCHES, Hello, Reply, convention, encode, write_hello
 from raycert.cases.row import GoldenRow
-from raycert.oracle.certify.grading import Grade, grade, kept
+from raycert.oracle.certify.grading import Grade, by_convention, grade
 from raycert.oracle.certify.verdict import Touches, by_solid
 from raycert.oracle.commands.export import export
 from raycert.oracle.commands.harness import READERS, harness
@@ -70,7 +70,7 @@ def exact_ones(precision: str) -> Iterator[Subject]:
         hello = Hello(f"exact-{i}", precision=precision, convention=text)
 
         def respond(row: GoldenRow, hello: Hello = hello) -> Numbers:
-            return kept(row, the_judge(row, hello), hello)[0]
+            return by_convention(row, the_judge(row, hello), hello)[0]
 
         yield Subject(hello, respond)
         yield Subject(replace(hello, name=f"other-{i}"), lambda row: row.expected)
