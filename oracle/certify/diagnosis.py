@@ -20,9 +20,9 @@ from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello
 from raycert.oracle.certify.grading import Grade, usual
 from raycert.oracle.certify.verdict import Touches, by_solid
 from raycert.oracle.judge.answer import First, Listed
-from raycert.oracle.zoo.catalog import FAULTS
 from raycert.oracle.zoo.fault import Fault
-from raycert.oracle.zoo.matrix import Bench, Outcome
+from raycert.oracle.zoo.inhabitants import FAULTS
+from raycert.oracle.zoo.matrix import Outcome, Trials
 
 SHARE = 0.92
 """Between 1, the share of a fault with itself, and 0.83, the most that any two of the zoo share
@@ -40,7 +40,7 @@ def diagnose(grades: Sequence[Grade]) -> list[str]:
     level, failing = failures(grades)
     if len(failing) < LEAST:
         return []
-    bench, named = Bench([g.row for g in grades], grades[0].judge.format), []
+    bench, named = Trials([g.row for g in grades], grades[0].judge.format), []
     for fault in FAULTS:
         if fault.stateful or _plausible(fault, failing):
             agreed, share = explained(fault, level, bench, grades, failing)
@@ -77,7 +77,7 @@ def _plausible(fault: Fault, failing: Sequence[Grade]) -> bool:
 
 
 def explained(
-    fault: Fault, level: Level, bench: Bench, grades: Sequence[Grade], failing: Sequence[Grade]
+    fault: Fault, level: Level, bench: Trials, grades: Sequence[Grade], failing: Sequence[Grade]
 ) -> tuple[int, float]:
     """Return on how many failures a fault agrees, and their share of its failures and these.
 

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from raycert.cases.corpus import Corpus
-    from raycert.oracle.zoo.matrix import Line
+    from raycert.oracle.zoo.matrix import MatrixLine
 
 HELP = """Try planted wrong tracers on the golden rows: which family refuses which fault, and why.
 
@@ -55,7 +55,7 @@ def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: P
     from rich.console import Console
 
     from raycert.cases.corpus import GOLDEN, BadCorpus, read_corpus
-    from raycert.oracle.zoo.catalog import BY_NAME
+    from raycert.oracle.zoo.inhabitants import BY_NAME
 
     if unknown := [name for name in names if name not in BY_NAME]:
         raise click.BadParameter(f"no such fault: {', '.join(unknown)}", param_hint="--fault")
@@ -80,8 +80,8 @@ def _write_smoke(golden: Path, folder: Path) -> None:
     from raycert.cases.corpus import read_corpus, write_whole
     from raycert.cases.formats import FORMATS
     from raycert.oracle.commands.options import counting
-    from raycert.oracle.zoo.catalog import FAULTS
     from raycert.oracle.zoo.cover import chosen
+    from raycert.oracle.zoo.inhabitants import FAULTS
 
     for precision in FORMATS:
         with counting(f"trying in {precision}", len(FAULTS)) as advance:
@@ -90,12 +90,12 @@ def _write_smoke(golden: Path, folder: Path) -> None:
         click.echo(f"{precision}: {len(ids)} rows")
 
 
-def _lines(corpus: Corpus, names: Sequence[str]) -> list[Line]:
+def _lines(corpus: Corpus, names: Sequence[str]) -> list[MatrixLine]:
     from raycert.oracle.commands.options import counting
-    from raycert.oracle.zoo.catalog import BY_NAME
-    from raycert.oracle.zoo.matrix import Bench, line
+    from raycert.oracle.zoo.inhabitants import BY_NAME
+    from raycert.oracle.zoo.matrix import Trials, line
 
-    bench, lines = Bench(corpus.rows, corpus.format), []
+    bench, lines = Trials(corpus.rows, corpus.format), []
     with counting("trying", len(names)) as advance:
         for name in names:
             lines.append(line(bench, BY_NAME[name]))
@@ -103,7 +103,7 @@ def _lines(corpus: Corpus, names: Sequence[str]) -> list[Line]:
     return lines
 
 
-def _write(corpus: Corpus, lines: Sequence[Line], out: Path) -> None:
+def _write(corpus: Corpus, lines: Sequence[MatrixLine], out: Path) -> None:
     import json
 
     from raycert.cases.corpus import write_whole
@@ -112,7 +112,7 @@ def _write(corpus: Corpus, lines: Sequence[Line], out: Path) -> None:
     write_whole(out, (json.dumps(form(corpus, lines), indent=1) + "\n").encode())
 
 
-def _table(lines: Sequence[Line], width: int) -> Table:
+def _table(lines: Sequence[MatrixLine], width: int) -> Table:
     from rich.table import Table
     from rich.text import Text
 
@@ -138,7 +138,7 @@ def _table(lines: Sequence[Line], width: int) -> Table:
     return table
 
 
-def _families(lines: Sequence[Line], console: Console) -> None:
+def _families(lines: Sequence[MatrixLine], console: Console) -> None:
     """Print, for each fault, who refuses it."""
     for line in lines:
         console.print(f"\n[bold]{line.fault.name}[/bold]: a tracer that {line.fault.does}")
@@ -149,7 +149,7 @@ def _families(lines: Sequence[Line], console: Console) -> None:
             console.print(f"  {family}: {counts}", highlight=False)
 
 
-def _summary(corpus: Corpus, lines: Sequence[Line], console: Console) -> int:
+def _summary(corpus: Corpus, lines: Sequence[MatrixLine], console: Console) -> int:
     trouble = [line for line in lines if line.trouble]
     rows = f"{len(corpus.rows)} rows of corpus {corpus.version}"
     console.print(f"\n{len(lines)} faults, {rows}: ", end="", highlight=False)

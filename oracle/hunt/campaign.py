@@ -30,8 +30,8 @@ from raycert.oracle.hunt.search import Budget, Finding, hunt
 from raycert.oracle.hunt.served import spec
 from raycert.oracle.hunt.simple import cost
 from raycert.oracle.hunt.unit import Job, work
-from raycert.oracle.zoo.catalog import BY_NAME, FAULTS
 from raycert.oracle.zoo.fault import Fault
+from raycert.oracle.zoo.inhabitants import BY_NAME, FAULTS
 from raycert.oracle.zoo.tracer import BASE
 
 SMALL = 12

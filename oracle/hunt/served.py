@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from raycert.oracle.zoo.catalog import BY_NAME
 from raycert.oracle.zoo.fault import Intersect
+from raycert.oracle.zoo.inhabitants import BY_NAME
 
 
 def __getattr__(name: str) -> Intersect:

@@ -1,13 +1,16 @@
-"""Planted wrong tracers, and sound ones that differ: what the judge and the corpus are tried on.
+"""Planted wrong tracers, and sound ones that differ: whether the corpus tells them apart.
 
-    numbers   vectors over doubles, binary32 numbers or fractions
-    lists     the algebra of lists of intervals
-    tracer    the base tracer, a frozen dataclass of steps; every inhabitant replaces some of them
-    fault     what is said of each inhabitant: what it does, where that is from, who must notice
-    walls ... the faults, by the part of a tracer that they are in
-    sound     tracers that are right in other ways, and what they deserve
-    catalog   all of them, and the faults that need a process of their own
-    matrix    which family refuses which fault, and why
+    tracer       the base tracer, a frozen dataclass of steps; every inhabitant replaces some
+    fault        what is said of each: what it does, where that is from, who must notice
+    walls        faults in Problem 1: the wall, the sphere, the discriminant
+    planes       faults in Problems 2 and 3: planes, caps, rims; strict comparisons
+    limits       faults of reach: starts, self-hits, scales, units, precision
+    trees        faults in the algebra of lists
+    answers      faults of the answer's form, and of what is remembered
+    inhabitants  all of them, the sound tracers, and the faults that need a process of their own
+    matrix       which family refuses which fault, and why
+    cover        the smoke rows: few rows that refuse what the corpus refuses
+    textbook     the derivation's formulas as printed, a subject to look at
 
 Nothing here is shared with `reference`, and nothing here is ever a truth.
 """

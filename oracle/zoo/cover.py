@@ -14,9 +14,9 @@ from collections.abc import Callable, Mapping, Sequence
 
 from raycert.cases.corpus import Corpus
 from raycert.cases.model import type_of
-from raycert.oracle.zoo.catalog import FAULTS
 from raycert.oracle.zoo.fault import Fault
-from raycert.oracle.zoo.matrix import LEVELS, Bench, Refusal, line
+from raycert.oracle.zoo.inhabitants import FAULTS
+from raycert.oracle.zoo.matrix import LEVELS, Refusal, Trials, line
 
 MOST = 200
 """More rows than these are no smoke test; tests/zoo/test_zoo_cover.py counts them."""
@@ -27,10 +27,10 @@ Need = tuple[str, str]
 
 def chosen(corpus: Corpus, advance: Callable[[], object] = lambda: None) -> list[str]:
     """Return the ids to put into the file of a corpus."""
-    bench = Bench(corpus.rows, corpus.format)
+    trials = Trials(corpus.rows, corpus.format)
     serves: dict[str, set[Need]] = {row.id: {("", row.family)} for row in corpus.rows}
     for fault in FAULTS:
-        for id, need in served(fault, line(bench, fault).refusals):
+        for id, need in served(fault, line(trials, fault).refusals):
             serves[id].add(need)
         advance()
     picked = set(greedy(serves))

@@ -8,8 +8,7 @@ from typing import Any, Literal
 
 from raycert.cases.levels import Level
 from raycert.cases.model import Ray, Solid
-from raycert.oracle.zoo.lists import Pairs
-from raycert.oracle.zoo.tracer import BASE
+from raycert.oracle.zoo.tracer import BASE, Pairs
 
 Intersect = Callable[[Solid, Ray], Pairs]
 Kind = Literal[
@@ -68,7 +67,7 @@ class Sound:
 
 
 @dataclass(frozen=True)
-class Process:
+class ProcessFault:
     """A fault that needs a process of its own; `test` is the one that sees it."""
 
     name: str

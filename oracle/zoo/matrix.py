@@ -56,7 +56,7 @@ class Refusal:
 
 
 @dataclass(frozen=True)
-class Bench:
+class Trials:
     """The rows that all faults are tried on, with what the base answers."""
 
     rows: Sequence[GoldenRow]
@@ -139,7 +139,7 @@ def _meets(one: tuple[float, float], other: tuple[float, float]) -> bool:
 
 
 @dataclass(frozen=True)
-class Line:
+class MatrixLine:
     """A fault and all its refusals: one line of the matrix."""
 
     fault: Fault
@@ -196,12 +196,12 @@ class Line:
         return None
 
 
-def line(bench: Bench, fault: Fault) -> Line:
+def line(trials: Trials, fault: Fault) -> MatrixLine:
     """Return the line of a fault."""
-    return Line(fault, tuple(refusal for _, refusal in bench.tried(fault) if refusal))
+    return MatrixLine(fault, tuple(refusal for _, refusal in trials.tried(fault) if refusal))
 
 
-def form(corpus: Corpus, lines: Sequence[Line]) -> dict[str, Any]:
+def form(corpus: Corpus, lines: Sequence[MatrixLine]) -> dict[str, Any]:
     """Return the matrix as a JSON object."""
     return {
         "corpus": {"version": corpus.version, "manifest_sha256": corpus.sha256},
@@ -211,7 +211,7 @@ def form(corpus: Corpus, lines: Sequence[Line]) -> dict[str, Any]:
     }
 
 
-def _fault_form(line: Line) -> dict[str, Any]:
+def _fault_form(line: MatrixLine) -> dict[str, Any]:
     fault, first = line.fault, line.first
     return {
         "name": fault.name,

@@ -3,30 +3,182 @@
 Symbols: the ray is u + t v, the axis runs from p to q, w = q - p (for a half-space, its normal);
 y = u - p (u - center, u - point) and z = u - q. Each leaf gives intervals of the whole line of t,
 which `ahead` cuts off at 0. A fault is `replace(BASE, step=...)`.
+
+A number is a double, a `Single` or a `Fraction`. It is called a float throughout: all three add,
+multiply and compare alike, and only `root` and `shift` look which one they have.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import inf
-from typing import NamedTuple
+from fractions import Fraction
+from functools import reduce
+from math import frexp, inf, isqrt, ldexp, nan, sqrt
+from typing import Any, NamedTuple, cast
 
+from raycert.cases.formats import BINARY32
 from raycert.cases.model import (
     Cylinder,
     Difference,
     HalfSpace,
     InfiniteCylinder,
     Intersection,
+    Leaf,
     Ray,
     Slab,
     Solid,
     Sphere,
     Union,
     Vector,
+    map_leaves,
 )
-from raycert.oracle.zoo.lists import LINE, Pairs, common, share, subtract, unite
-from raycert.oracle.zoo.numbers import cross, dot, exponent, minus, norm, root, shift, shifted
+from raycert.cases.vectors import cross, dot, minus, times
+
+Pair = tuple[float, float]
+Pairs = list[Pair]
+LINE: Pairs = [(-inf, inf)]
+NAN: Pairs = [(nan, nan)]
+Combine = Callable[[Sequence[Pairs]], Pairs]
+Chord = Callable[[Vector, Vector, float], Pairs]
+Read = Callable[[Solid, Ray], tuple[Solid, Ray]]
+Tell = Callable[[Solid, Ray, Pairs], Pairs]
+
+
+class Single(float):
+    """A binary32 number: every operation is rounded to binary32.
+
+    Rounding the binary64 result once more is right for + - * / and sqrt, as 53 >= 2 * 24 + 2.
+    """
+
+    __slots__ = ()
+
+    def __add__(self, other: float) -> Single:
+        return single(float.__add__(self, other))
+
+    def __sub__(self, other: float) -> Single:
+        return single(float.__sub__(self, other))
+
+    def __mul__(self, other: float) -> Single:
+        return single(float.__mul__(self, other))
+
+    def __truediv__(self, other: float) -> Single:
+        return single(float.__truediv__(self, other))
+
+    def __neg__(self) -> Single:
+        return Single(float.__neg__(self))
+
+
+BITS = 240
+"""The bits of a root that a fraction gets."""
+
+
+def norm(a: Vector) -> float:
+    """Return |a|."""
+    return root(dot(a, a))
+
+
+def root(x: float) -> float:
+    """Return the square root: of a double or a `Single` rounded right, of a fraction to BITS."""
+    if type(x) is float:
+        return sqrt(x)
+    if isinstance(x, Single):
+        return single(sqrt(x))
+    f = Fraction(x)
+    up = max(2 * BITS - f.numerator.bit_length() + f.denominator.bit_length(), 0) // 2
+    return cast(float, Fraction(isqrt((f.numerator << 2 * up) // f.denominator), 1 << up))
+
+
+def shift(x: float, e: int) -> float:
+    """Return x 2^e as a number of the same kind; a double that overflows is infinite."""
+    if not e or not x:
+        return x
+    if type(x) is not float and isinstance(x, Fraction):
+        return cast(float, x * Fraction(2) ** e)
+    try:
+        moved = ldexp(x, e)
+    except OverflowError:
+        moved = inf if x > 0 else -inf
+    return moved if type(x) is float else type(x)(moved)
+
+
+def shifted(a: Vector, e: int) -> Vector:
+    """Return a 2^e."""
+    if not e:
+        return a
+    if type(a[0]) is float and -1022 <= e <= 1022:  # the factor is exact: one rounding, as in shift
+        k = ldexp(1.0, e)
+        return (a[0] * k, a[1] * k, a[2] * k)
+    return (shift(a[0], e), shift(a[1], e), shift(a[2], e))
+
+
+def exponent(*numbers: float) -> int:
+    """Return the e for which the largest magnitude is in [1/2, 1) 2^e; 0 for zeros."""
+    largest = max(map(abs, numbers))
+    return frexp(largest)[1] if largest else 0
+
+
+def fraction(x: float) -> float:
+    """Return a double as the fraction it is."""
+    return cast(float, Fraction(x))
+
+
+def single(x: float) -> Single:
+    """Return the binary32 number nearest to a double."""
+    return Single(BINARY32.nearest(x))
+
+
+def common(first: Pairs, second: Pairs) -> Pairs:
+    """Return the t in both lists; NaN where one has it."""
+    if len(first) == len(second) == 1:
+        (a, b), (c, d) = first[0], second[0]
+        if a != a or c != c:
+            return NAN
+        enter, leave = (a if a > c else c), (b if b < d else d)
+        return [(enter, leave)] if enter <= leave else []
+    pieces = [(max(a, c), min(b, d)) for a, b in first for c, d in second]
+    return [(a, b) for a, b in pieces if a <= b]
+
+
+def share(lists: Sequence[Pairs]) -> Pairs:
+    """Return the t in all lists."""
+    return reduce(common, lists)
+
+
+def merged(pairs: Pairs) -> Pairs:
+    """Return the list of intervals in any order, sorted, and joined where they touch."""
+    joined: Pairs = []
+    for a, b in sorted(pairs):
+        if joined and a <= joined[-1][1]:
+            joined[-1] = (joined[-1][0], max(joined[-1][1], b))
+        else:
+            joined.append((a, b))
+    return joined
+
+
+def unite(lists: Sequence[Pairs]) -> Pairs:
+    """Return the t in any list."""
+    return merged([pair for pairs in lists for pair in pairs])
+
+
+def subtract(lists: Sequence[Pairs]) -> Pairs:
+    """Return the closure of the t in the first list and in no other."""
+    return merged(pierced(lists, cut))
+
+
+def pierced(lists: Sequence[Pairs], cut: Callable[[Pair, Pair], Pairs]) -> Pairs:
+    """Return what is left of the first list, each of its pairs cut by each hole in turn."""
+    left = lists[0]
+    for hole in unite(lists[1:]):
+        left = [piece for pair in left for piece in cut(pair, hole)]
+    return left
+
+
+def cut(pair: Pair, hole: Pair) -> Pairs:
+    """Return the closures of what is before a hole and of what is after it."""
+    (a, b), (c, d) = pair, hole
+    before = [(a, min(b, c))] if a < c else []
+    return before + ([(max(a, d), b)] if d < b else [])
 
 
 class Sight(NamedTuple):
@@ -40,9 +192,6 @@ class Sight(NamedTuple):
     r: float
     e: int
     """t = (the t of the scaled numbers) 2^e."""
-
-
-Combine = Callable[[Sequence[Pairs]], Pairs]
 
 
 def as_given(solid: Solid, ray: Ray) -> tuple[Solid, Ray]:
@@ -88,7 +237,7 @@ def caps(self: Tracer, s: Sight) -> tuple[Pairs, Pairs]:
 
 def can(self: Tracer, s: Sight) -> Pairs:
     """Return where the ray is in the cylinder."""
-    return share([self.wall(self, s), *self.caps(self, s)])
+    return self.share([self.wall(self, s), *self.caps(self, s)])
 
 
 def below(self: Tracer, s: Sight) -> Pairs:
@@ -115,10 +264,10 @@ def identity(x: float) -> float:
 class Tracer:
     """The steps, in the order in which they are taken; calling it answers a question."""
 
-    read: Callable[[Solid, Ray], tuple[Solid, Ray]] = as_given
+    read: Read = as_given
     number: Callable[[float], float] = identity
     scale: Callable[..., int] = exponent
-    chord: Callable[[Vector, Vector, float], Pairs] = chord
+    chord: Chord = chord
     plane: Callable[[float, float], Pairs] = plane
     wall: Callable[[Tracer, Sight], Pairs] = crossed
     ball: Callable[[Tracer, Sight], Pairs] = ball
@@ -129,7 +278,7 @@ class Tracer:
     unite: Combine = unite
     share: Combine = share
     subtract: Combine = subtract
-    tell: Callable[[Solid, Ray, Pairs], Pairs] = as_found
+    tell: Tell = as_found
 
     def __call__(self, solid: Solid, ray: Ray) -> Pairs:
         """Return the list of the t >= 0 for which the ray is in the solid."""
@@ -162,7 +311,7 @@ class Tracer:
                 return s, self.wall(self, s)
             case Slab(p, q):
                 s = self.sight(ray, p, q, None, 0.0)
-                return s, share(self.caps(self, s))
+                return s, self.share(self.caps(self, s))
             case Cylinder(p, q, radius):
                 s = self.sight(ray, p, q, None, radius)
                 return s, self.can(self, s)
@@ -186,4 +335,68 @@ class Tracer:
         return (self.number(a[0]), self.number(a[1]), self.number(a[2]))
 
 
+Step = Callable[[Tracer, Sight], Pairs]
+"""What a tracer makes of a leaf, or of a part of it."""
+
 BASE = Tracer()
+"""The tracer that every fault is planted in."""
+
+# Steps in the units of the question: no scaling, a normalised axis, coefficients of a quadratic.
+# Faults with an absolute threshold are planted on these.
+
+
+def unscaled(*_: float) -> int:
+    """Return the exponent 0: nothing is scaled."""
+    return 0
+
+
+def unit(w: Vector) -> Vector:
+    """Return w / |w|."""
+    return times(1 / norm(w), w)
+
+
+def projected(self: Tracer, s: Sight) -> Pairs:
+    """Return where the ray is in the wall: y and v less their parts along the axis."""
+    n = unit(s.w)
+    y, v = minus(s.y, times(dot(s.y, n), n)), minus(s.v, times(dot(s.v, n), n))
+    return self.chord(y, v, s.r)
+
+
+PLAIN: dict[str, Any] = {"scale": unscaled, "wall": projected}
+"""The steps of a tracer whose numbers are those of the question."""
+
+
+def roots(a: float, b: float, c: float) -> Pairs:
+    """Return where a t^2 + 2 b t + c <= 0, by the discriminant b^2 - a c."""
+    if a == 0:
+        return LINE if c <= 0 else []
+    disc = b * b - a * c
+    if disc < 0:
+        return []
+    half = root(disc)
+    return [((-b - half) / a, (-b + half) / a)]
+
+
+def coefficients(y: Vector, v: Vector, r: float) -> tuple[float, float, float]:
+    """Return v.v, v.y and y.y - r^2."""
+    return dot(v, v), dot(v, y), dot(y, y) - r * r
+
+
+def discriminant(y: Vector, v: Vector, r: float) -> Pairs:
+    """Return where |y + t v| <= r, by the textbook."""
+    return roots(*coefficients(y, v, r))
+
+
+def quadratic(solve: Callable[[float, float, float], Pairs]) -> Chord:
+    """Return the chord that a way to solve a t^2 + 2 b t + c = 0, with a > 0, gives."""
+
+    def solved(y: Vector, v: Vector, r: float) -> Pairs:
+        a, b, c = coefficients(y, v, r)
+        return solve(a, b, c) if a else LINE if c <= 0 else []
+
+    return solved
+
+
+def each_leaf(change: Callable[[Any], Leaf]) -> Read:
+    """Return the step that reads every leaf of a solid otherwise."""
+    return lambda solid, ray: (map_leaves(change, solid), ray)

@@ -9,20 +9,29 @@ from typing import Any
 
 from raycert.cases.formats import BINARY32
 from raycert.cases.model import Cylinder, InfiniteCylinder, Leaf, Slab, Vector
+from raycert.cases.vectors import cross, dot, minus, times
 from raycert.oracle.zoo.fault import Fault, fault
-from raycert.oracle.zoo.lists import LINE, NAN, Pairs
-from raycert.oracle.zoo.numbers import cross, dot, minus, norm, times
-from raycert.oracle.zoo.plain import (
+from raycert.oracle.zoo.tracer import (
+    LINE,
+    NAN,
     PLAIN,
     Chord,
+    Pairs,
+    Sight,
+    Step,
+    Tracer,
+    ball,
+    chord,
     coefficients,
+    crossed,
     each_leaf,
+    norm,
     projected,
     quadratic,
     roots,
+    unit,
     unscaled,
 )
-from raycert.oracle.zoo.tracer import Sight, Tracer, ball, chord, crossed
 
 
 def parallel(answer: Callable[[Vector, float], Pairs]) -> Chord:
@@ -40,10 +49,10 @@ def ends(change: Callable[[float, float], Pairs]) -> Chord:
     return changed
 
 
-def lost(when: Callable[[Vector, float], bool]) -> dict[str, Any]:
+def lost(when: Callable[[Vector, float], bool], wall: Step = crossed) -> dict[str, Any]:
     """Return the steps that see no wall and no sphere when the start, or the radius, is such."""
     return {
-        "wall": lambda self, s: [] if when(s.y, s.r) else crossed(self, s),
+        "wall": lambda self, s: [] if when(s.y, s.r) else wall(self, s),
         "ball": lambda self, s: [] if when(s.y, s.r) else ball(self, s),
     }
 
@@ -64,8 +73,7 @@ def _disc(change: Callable[[float], float]) -> Chord:
 
 
 def _forgets_the_four(a: float, b: float, c: float) -> Pairs:
-    disc = 4 * b * b - a * c
-    return [] if disc < 0 else [((-2 * b - sqrt(disc)) / (2 * a), (-2 * b + sqrt(disc)) / (2 * a))]
+    return [(low / 2, high / 2) for low, high in roots(a, 2 * b, c)]
 
 
 def _times_a(a: float, b: float, c: float) -> Pairs:
@@ -90,7 +98,7 @@ def _step(a: float, b: float, c: float, t: float) -> float:
 
 
 def _by_pythagoras(self: Tracer, s: Sight) -> Pairs:
-    n = times(1 / norm(s.w), s.w)
+    n = unit(s.w)
     along, height = dot(s.v, n), dot(s.y, n)
     a = dot(s.v, s.v) - along * along
     b = dot(s.v, s.y) - along * height
@@ -124,137 +132,75 @@ def _upright(leaf: Leaf) -> Leaf:
 
 
 FAULTS: tuple[Fault, ...] = (
-    fault(
-        "parallel-nan", "divides 0 by 0 where the ray runs along the axis",
-        "mccode-dev/McCode #986; aardvark-platform/aardvark.base #123",
-        "parallel", "malformed", chord=parallel(lambda y, r: NAN),
-    ),
-    fault(
-        "parallel-missed", "sees nothing where the ray runs along the axis",
-        "bepu/bepuphysics2 #253", "table-along-inside", "missed", chord=parallel(lambda y, r: []),
-    ),
-    fault(
-        "parallel-always", "takes every ray along the axis for one inside the wall",
-        "aardvark-platform/aardvark.base #123", "table-along-outside", "phantom",
-        chord=parallel(lambda y, r: LINE),
-    ),
-    fault(
-        "nearly-parallel", "takes a ray within 1e-6 of the axis for parallel",
-        "failures M1: MuJoCo, Geant4, Bullet", "tilt", "wrong end", wall=_nearly_parallel,
-    ),
-    fault(
-        "small-a", "takes the leading coefficient for zero below 1e-8",
-        "PixarAnimationStudios/OpenUSD PR #4221", "direction-scale", "missed",
-        **PLAIN, chord=_no_slope,
-    ),
-    fault(
-        "sine-by-pythagoras", "computes the part across the axis as v.v - (v.n)^2",
-        "VecGeom 35c91e81; celeritas #621", "tilt", "missed", wall=_by_pythagoras,
-    ),
-    fault(
-        "small-disc", "drops roots whose discriminant is below 1e-6",
-        "the habit of an epsilon against double roots", "scene-scale", "missed",
-        **PLAIN, chord=_disc(lambda d: d if d > 1e-6 else -1.0),
-    ),
-    fault(
-        "tolerant-disc", "takes a discriminant above -1e-6 for zero",
-        "openmc #80; moveit/geometric_shapes a627e6f", "tangent-gap", "phantom",
-        **PLAIN, chord=_disc(lambda d: d if d > 0 else 0.0 if d > -1e-6 else -1.0),
-    ),
-    fault(
-        "single-disc", "computes the discriminant in binary32",
-        "acts-project/detray #1003", "tangent-gap", "wrong end",
-        chord=_disc(BINARY32.nearest),
-    ),
-    fault(
-        "absolute-disc", "takes the root of the discriminant's absolute value",
-        "BRL-CAD 14e639f671", "table-miss", "phantom", chord=_disc(abs),
-    ),
-    fault(
-        "root-of-negative", "takes the root of a negative discriminant",
-        "Geant4 CSG/History 2007-08-16", "table-miss", "malformed",
-        chord=_disc(lambda d: d if d >= 0 else nan),
-    ),
-    fault(
-        "four-forgotten", "writes b^2 - ac for b^2 - 4ac",
-        "a student's slip", "random-infinite-cylinder", "wrong end",
-        chord=quadratic(_forgets_the_four),
-    ),
-    fault(
-        "over-two-a", "writes / 2 * a for / (2 * a)", "a student's slip",
-        "direction-scale", "phantom", **PLAIN, chord=quadratic(_times_a),
-    ),
-    fault(
-        "a-is-one", "leaves the leading coefficient out, as if the direction had length one",
-        "bulletphysics/bullet3; g-truc/glm #8", "direction-scale", "wrong end",
-        **PLAIN, chord=quadratic(lambda a, b, c: roots(1.0, b, c)),
-    ),
-    fault(
-        "minus-forgotten", "writes b for -b", "a student's slip", "behind", "phantom",
-        chord=ends(lambda a, b: [(-b, -a)]),
-    ),
-    fault(
-        "far-root", "takes the far root for both", "mmp/pbrt-v4 5f7a6068: 12 742 km away",
-        "sphere-large", "missed", chord=ends(lambda a, b: [(b, b)]),
-    ),
-    fault(
-        "near-root", "takes the near root for both", "the habit of returning one hit",
-        "random-cylinder", "missed", chord=ends(lambda a, b: [(a, a)]),
-    ),
-    fault(
-        "closest-point", "stops at the closest approach", "a student's slip: half is left out",
-        "table-through", "wrong end", chord=ends(lambda a, b: [((a + b) / 2, (a + b) / 2)]),
-    ),
-    fault(
-        "newton", "gives up its iteration after twenty steps",
-        "moveit/geometric_shapes #28; the remedy for an endless loop", "tangent-gap", "wrong end",
-        chord=quadratic(_newton),
-    ),
-    fault(
-        "radius-unsquared", "writes r for r^2", "a student's slip",
-        "random-infinite-cylinder", "wrong end",
-        **PLAIN, chord=lambda y, v, r: roots(dot(v, v), dot(v, y), dot(y, y) - r),
-    ),
-    fault(
-        "diameter", "takes the radius for the diameter", "the habit of other formats",
-        "random-infinite-cylinder", "wrong end",
-        chord=lambda y, v, r: chord(y, v, r / 2),
-    ),
-    fault(
-        "padded-radius", "adds 1e-4 to every radius", "the habit of a skin against leaks",
-        "needle", "wrong end", **PLAIN, chord=lambda y, v, r: chord(y, v, r + 1e-4),
-    ),
-    fault(
-        "small-radius", "sees nothing of a radius below 1e-9",
-        "moveit/geometric_shapes #28; failures M6", "scene-scale", "missed",
-        **{**PLAIN, "wall": lambda self, s: [] if s.r < 1e-9 else projected(self, s)},
-        ball=lambda self, s: [] if s.r < 1e-9 else ball(self, s),
-    ),
-    fault(
-        "zero-radius", "sees nothing of a radius of zero", "NVIDIA/VisRTX PR #334",
-        "zero-radius", "missed", "stable", **lost(lambda y, r: r == 0),
-    ),
-    fault(
-        "lost-at-distance", "sees nothing from more than 1e7 radii away",
-        "failures M4: Geant4, G4Tubs", "far-deep", "missed",
-        **lost(lambda y, r: norm(y) > 1e7 * r > 0),
-    ),
-    fault(
-        "axis-length", "crosses with the axis without dividing by its length",
-        "a student's slip: w for n", "random-infinite-cylinder", "wrong end",
-        scale=unscaled, wall=lambda self, s: self.chord(cross(s.y, s.w), cross(s.v, s.w), s.r),
-    ),
-    fault(
-        "unscaled-axis", "projects on the axis without normalising it",
-        "a student's slip: w for n", "random-infinite-cylinder", "wrong end",
-        scale=unscaled, wall=_unscaled_axis,
-    ),
-    fault(
-        "upright", "takes every axis for parallel to z", "a local frame left out",
-        "random-cylinder", "missed", read=each_leaf(_upright),
-    ),
-    fault(
-        "expanded", "expands |u - center|^2 about the coordinate origin",
-        "mmp/pbrt-v3 #44", "sphere-displaced", "wrong end", "sound", ball=_expanded,
-    ),
+    fault("parallel-nan", "divides 0 by 0 where the ray runs along the axis",
+          "mccode-dev/McCode #986; aardvark-platform/aardvark.base #123", "parallel", "malformed",
+          chord=parallel(lambda y, r: NAN)),
+    fault("parallel-missed", "sees nothing where the ray runs along the axis",
+          "bepu/bepuphysics2 #253", "table-along-inside", "missed",
+          chord=parallel(lambda y, r: [])),
+    fault("parallel-always", "takes every ray along the axis for one inside the wall",
+          "aardvark-platform/aardvark.base #123", "table-along-outside", "phantom",
+          chord=parallel(lambda y, r: LINE)),
+    fault("nearly-parallel", "takes a ray within 1e-6 of the axis for parallel",
+          "celeritas-project/celeritas #621", "tilt", "wrong end", wall=_nearly_parallel),
+    fault("small-a", "takes the leading coefficient for zero below 1e-8",
+          "PixarAnimationStudios/OpenUSD PR #4221", "direction-scale", "missed", **PLAIN,
+          chord=_no_slope),
+    fault("sine-by-pythagoras", "computes the part across the axis as v.v - (v.n)^2",
+          "VecGeom 35c91e81; celeritas-project/celeritas #621", "tilt", "missed",
+          wall=_by_pythagoras),
+    fault("small-disc", "drops roots whose discriminant is below 1e-6",
+          "the habit of an epsilon against double roots", "scene-scale", "missed", **PLAIN,
+          chord=_disc(lambda d: d if d > 1e-6 else -1.0)),
+    fault("tolerant-disc", "takes a discriminant above -1e-6 for zero",
+          "openmc-dev/openmc #80; moveit/geometric_shapes a627e6f", "tangent-gap", "phantom",
+          **PLAIN, chord=_disc(lambda d: d if d > 0 else 0.0 if d > -1e-6 else -1.0)),
+    fault("single-disc", "computes the discriminant in binary32", "acts-project/detray #1003",
+          "tangent-gap", "wrong end", chord=_disc(BINARY32.nearest)),
+    fault("absolute-disc", "takes the root of the discriminant's absolute value",
+          "BRL-CAD/brlcad 14e639f671", "table-miss", "phantom", chord=_disc(abs)),
+    fault("root-of-negative", "takes the root of a negative discriminant",
+          "Geant4 CSG/History 2007-08-16", "table-miss", "malformed",
+          chord=_disc(lambda d: d if d >= 0 else nan)),
+    fault("four-forgotten", "writes b^2 - ac for b^2 - 4ac", "a student's slip",
+          "random-infinite-cylinder", "wrong end", chord=quadratic(_forgets_the_four)),
+    fault("over-two-a", "writes / 2 * a for / (2 * a)", "a student's slip", "direction-scale",
+          "phantom", **PLAIN, chord=quadratic(_times_a)),
+    fault("a-is-one", "leaves the leading coefficient out, as if the direction had length one",
+          "g-truc/glm #8", "direction-scale", "wrong end", **PLAIN,
+          chord=quadratic(lambda a, b, c: roots(1.0, b, c))),
+    fault("minus-forgotten", "writes b for -b", "a student's slip", "behind", "phantom",
+          chord=ends(lambda a, b: [(-b, -a)])),
+    fault("far-root", "takes the far root for both", "mmp/pbrt-v4 5f7a6068: 12 742 km away",
+          "sphere-large", "missed", chord=ends(lambda a, b: [(b, b)])),
+    fault("near-root", "takes the near root for both", "the habit of returning one hit",
+          "random-cylinder", "missed", chord=ends(lambda a, b: [(a, a)])),
+    fault("closest-point", "stops at the closest approach", "a student's slip: half is left out",
+          "table-through", "wrong end", chord=ends(lambda a, b: [((a + b) / 2, (a + b) / 2)])),
+    fault("newton", "gives up its iteration after twenty steps",
+          "moveit/geometric_shapes #28; the remedy for an endless loop", "tangent-gap", "wrong end",
+          chord=quadratic(_newton)),
+    fault("radius-unsquared", "writes r for r^2", "a student's slip", "random-infinite-cylinder",
+          "wrong end", **PLAIN, chord=lambda y, v, r: roots(dot(v, v), dot(v, y), dot(y, y) - r)),
+    fault("diameter", "takes the radius for the diameter", "the habit of other formats",
+          "random-infinite-cylinder", "wrong end", chord=lambda y, v, r: chord(y, v, r / 2)),
+    fault("padded-radius", "adds 1e-4 to every radius", "the habit of a skin against leaks",
+          "needle", "wrong end", **PLAIN, chord=lambda y, v, r: chord(y, v, r + 1e-4)),
+    fault("small-radius", "sees nothing of a radius below 1e-9", "moveit/geometric_shapes #28",
+          "scene-scale", "missed",
+          scale=unscaled, **lost(lambda y, r: r < 1e-9, projected)),
+    fault("zero-radius", "sees nothing of a radius of zero", "NVIDIA/VisRTX PR #334", "zero-radius",
+          "missed", "stable", **lost(lambda y, r: r == 0)),
+    fault("lost-at-distance", "sees nothing from more than 1e7 radii away", "Geant4 report #1022",
+          "far-deep", "missed", **lost(lambda y, r: norm(y) > 1e7 * r > 0)),
+    fault("axis-length", "crosses with the axis without dividing by its length",
+          "a student's slip: w for n", "random-infinite-cylinder", "wrong end", scale=unscaled,
+          wall=lambda self, s: self.chord(cross(s.y, s.w), cross(s.v, s.w), s.r)),
+    fault("unscaled-axis", "projects on the axis without normalising it",
+          "a student's slip: w for n", "random-infinite-cylinder", "wrong end", scale=unscaled,
+          wall=_unscaled_axis),
+    fault("upright", "takes every axis for parallel to z", "a local frame left out",
+          "random-cylinder", "missed", read=each_leaf(_upright)),
+    fault("expanded", "expands |u - center|^2 about the coordinate origin", "mmp/pbrt-v3 #44",
+          "sphere-displaced", "wrong end", "sound", ball=_expanded),
 )  # fmt: skip

@@ -19,13 +19,13 @@ from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.verdict import Touches, by_family, by_solid, verdict
 from raycert.oracle.client.process import Failure
 from raycert.oracle.commands.certify import certify
-from raycert.oracle.zoo import sound
-from raycert.oracle.zoo.catalog import BY_NAME
+from raycert.oracle.zoo import inhabitants
+from raycert.oracle.zoo.inhabitants import BY_NAME
 from raycert.reference.tracer import intersect
 
 Intersect = Callable[[Solid, Ray], Iterable[tuple[float, float]]]
 HELLO = Hello("a tracer")
-SOUND = {animal.name: animal.tracer for animal in sound.SOUND}
+SOUND = {animal.name: animal.tracer for animal in inhabitants.SOUND}
 SOLIDS = ("half_space", "slab", "infinite_cylinder", "cylinder")
 
 
@@ -137,7 +137,7 @@ def client(folder: Path, name: str) -> list[str]:
     here = Path(str(oracle.__file__)).parent.parent
     script.write_text(
         f"import sys; sys.path.insert(0, {str(here)!r})\n"
-        "from oracle.zoo.catalog import BY_NAME\n"
+        "from oracle.zoo.inhabitants import BY_NAME\n"
         "from cases.protocol import Hello\n"
         "from cases.serve import serve\n"
         f"serve({name}, Hello('planted', solids={SOLIDS!r}))\n"

@@ -37,7 +37,7 @@ def form(name: str = "certificate.json") -> dict[str, Any]:
 def faulty(name: str) -> str:
     """Write a module with a planted fault as a callable; return the target."""
     Path("wrong.py").write_text(
-        f"from oracle.zoo.catalog import BY_NAME\nintersect = BY_NAME[{name!r}].make()\n"
+        f"from oracle.zoo.inhabitants import BY_NAME\nintersect = BY_NAME[{name!r}].make()\n"
     )
     return "wrong:intersect"
 

@@ -21,11 +21,10 @@ from raycert.oracle.certify.diagnosis import LEAST, SHARE, close, diagnose
 from raycert.oracle.certify.grading import Grade
 from raycert.oracle.judge.answer import Listed
 from raycert.oracle.judge.levels import Judge
-from raycert.oracle.zoo.catalog import FAULTS, SOUND
 from raycert.oracle.zoo.fault import Fault, Intersect
-from raycert.oracle.zoo.matrix import Bench, Outcome
-from raycert.oracle.zoo.plain import projected, unscaled
-from raycert.oracle.zoo.tracer import Tracer, crossed
+from raycert.oracle.zoo.inhabitants import FAULTS, SOUND
+from raycert.oracle.zoo.matrix import Outcome, Trials
+from raycert.oracle.zoo.tracer import Tracer, crossed, projected, unscaled
 
 SILENT = {
     "zero-radius", "tangents-dropped", "wall-outside", "cap-outside", "rim-dropped",
@@ -44,8 +43,8 @@ def rows() -> tuple[GoldenRow, ...]:
 
 
 @cache
-def bench() -> Bench:
-    return Bench(rows(), BINARY64)
+def bench() -> Trials:
+    return Trials(rows(), BINARY64)
 
 
 def rounded(answer: Numbers, dice: random.Random) -> Numbers:

@@ -47,7 +47,7 @@ def planted(folder: Path, tracer: str, hello: str = "'planted'") -> tuple[str, .
     """Write a program that serves an expression: one of the zoo's tracers, or a function."""
     script = folder / "client.py"
     script.write_text(
-        "from oracle.zoo.catalog import BY_NAME\n"
+        "from oracle.zoo.inhabitants import BY_NAME\n"
         "from cases.protocol import Hello\n"
         "from cases.serve import serve\n"
         f"serve({tracer}, Hello({hello}))\n"

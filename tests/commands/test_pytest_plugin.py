@@ -20,7 +20,7 @@ CLIENT = """
 import pathlib, sys
 from raycert.cases.protocol import Hello
 from raycert.cases.serve import serve
-from raycert.oracle.zoo.catalog import BY_NAME
+from raycert.oracle.zoo.inhabitants import BY_NAME
 from raycert.oracle.zoo.tracer import BASE
 
 log = pathlib.Path(__file__).with_name("log")

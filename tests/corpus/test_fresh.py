@@ -17,9 +17,8 @@ from raycert.oracle.certify.grading import grade
 from raycert.oracle.certify.verdict import verdict
 from raycert.oracle.corpus.fresh import Fresh, fresh_cases, fresh_rows
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.zoo.catalog import FAULTS
-from raycert.oracle.zoo.matrix import Bench
-from raycert.oracle.zoo.sound import SOUND
+from raycert.oracle.zoo.inhabitants import FAULTS, SOUND
+from raycert.oracle.zoo.matrix import Trials
 from raycert.reference.tracer import intersect
 
 EVERY = tuple(SOLIDS)
@@ -115,7 +114,7 @@ def test_most_rows_are_decisive_and_many_hit() -> None:
 
 def test_most_of_the_zoo_is_refused() -> None:
     """Of a whole block, 500 rows: 111 to 113 of 117, over ten seeds."""
-    bench = Bench(block(1, 250), BINARY64)
+    bench = Trials(block(1, 250), BINARY64)
     killed = [f.name for f in FAULTS if any(refusal for _, refusal in bench.tried(f))]
     assert len(killed) > 0.8 * len(FAULTS)
 

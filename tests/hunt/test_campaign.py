@@ -4,7 +4,7 @@ import pytest
 
 from raycert.oracle.hunt.campaign import UNIT, form, line, longest, trial
 from raycert.oracle.hunt.search import Budget
-from raycert.oracle.zoo.catalog import BY_NAME
+from raycert.oracle.zoo.inhabitants import BY_NAME
 
 QUICK = ("no-clip", "tolerant-disc", "small-disc", "expanded", "tangents-dropped", "overflow")
 

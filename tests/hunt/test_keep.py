@@ -14,7 +14,7 @@ from raycert.oracle.hunt.executors import Here
 from raycert.oracle.hunt.search import Budget, hunt
 from raycert.oracle.hunt.served import spec
 from raycert.oracle.hunt.unit import Job, work
-from raycert.oracle.zoo.catalog import BY_NAME
+from raycert.oracle.zoo.inhabitants import BY_NAME
 
 
 def hunted(name, seed=0):

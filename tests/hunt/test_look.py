@@ -12,7 +12,7 @@ from raycert.cases.protocol import Hello, Reply
 from raycert.oracle.certify.grading import grade
 from raycert.oracle.client.process import Failure
 from raycert.oracle.hunt.look import RIGHT, Asked, Looker
-from raycert.oracle.zoo.catalog import BY_NAME
+from raycert.oracle.zoo.inhabitants import BY_NAME
 from raycert.oracle.zoo.matrix import Outcome
 from raycert.oracle.zoo.tracer import BASE
 

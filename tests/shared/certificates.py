@@ -16,7 +16,7 @@ from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.selection import Left
 from raycert.oracle.certify.verdict import verdict
 from raycert.oracle.client.process import Failure
-from raycert.oracle.zoo.catalog import BY_NAME
+from raycert.oracle.zoo.inhabitants import BY_NAME
 
 Json = dict[str, Any]
 Outcome = Reply | Failure

@@ -27,8 +27,8 @@ from raycert.oracle.certify.verdict import Touches, by_solid
 from raycert.oracle.commands.export import export
 from raycert.oracle.commands.harness import READERS, harness
 from raycert.oracle.judge.levels import Judge
-from raycert.oracle.zoo.catalog import FAULTS, SOUND
 from raycert.oracle.zoo.fault import Intersect
+from raycert.oracle.zoo.inhabitants import FAULTS, SOUND
 from raycert.oracle.zoo.matrix import Outcome
 
 Respond = Callable[[GoldenRow], Numbers | None]

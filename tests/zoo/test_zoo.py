@@ -15,10 +15,10 @@ from raycert.cases.protocol import Hello, Reply
 from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.verdict import Touches, by_solid
 from raycert.oracle.commands.zoo import zoo
-from raycert.oracle.zoo import catalog
-from raycert.oracle.zoo.catalog import BY_NAME, FAULTS, PROCESS, SOUND
-from raycert.oracle.zoo.fault import Fault, Process, Sound, fault
-from raycert.oracle.zoo.matrix import Bench, Outcome, kind, line
+from raycert.oracle.zoo import inhabitants
+from raycert.oracle.zoo.fault import Fault, ProcessFault, Sound, fault
+from raycert.oracle.zoo.inhabitants import BY_NAME, FAULTS, PROCESS, SOUND
+from raycert.oracle.zoo.matrix import Outcome, Trials, kind, line
 from raycert.oracle.zoo.tracer import BASE
 
 HARMLESS = fault("harmless", "does nothing wrong", "nowhere", "behind", "missed")
@@ -31,8 +31,8 @@ def corpus(precision: str = "binary64") -> Corpus:
 
 
 @cache
-def bench() -> Bench:
-    return Bench(corpus().rows, corpus().format)
+def bench() -> Trials:
+    return Trials(corpus().rows, corpus().format)
 
 
 def test_the_zoo_is_large_and_each_name_is_one():
@@ -95,7 +95,7 @@ def test_the_base_is_granted_every_row_the_range_included():
 
 
 @pytest.mark.parametrize("process", PROCESS, ids=lambda p: p.name)
-def test_a_fault_of_a_process_has_its_test(process: Process):
+def test_a_fault_of_a_process_has_its_test(process: ProcessFault):
     path, _, name = process.test.partition("::")
     tree = ast.parse((TESTS.parent / path).read_text())
     assert name in {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
@@ -136,7 +136,7 @@ def test_the_command_shows_who_refuses_a_fault(tmp_path: Path):
 
 
 def test_the_command_is_loud_about_a_fault_that_nothing_refuses(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setitem(catalog.BY_NAME, "harmless", HARMLESS)
+    monkeypatch.setitem(inhabitants.BY_NAME, "harmless", HARMLESS)
     result = CliRunner().invoke(zoo, ["--fault", "harmless"])
     assert result.exit_code == 1
     assert "no golden row refuses it" in result.output

@@ -10,19 +10,19 @@ from raycert.cases.corpus import Corpus, read_corpus
 from raycert.cases.model import type_of
 from raycert.cases.protocol import Hello
 from raycert.oracle.certify.selection import Selection, select
-from raycert.oracle.zoo.catalog import FAULTS
 from raycert.oracle.zoo.cover import MOST, greedy, served
 from raycert.oracle.zoo.fault import Fault
-from raycert.oracle.zoo.matrix import Bench, line
+from raycert.oracle.zoo.inhabitants import FAULTS
+from raycert.oracle.zoo.matrix import Trials, line
 from raycert.oracle.zoo.smoke import smoke
 
 PRECISIONS = ("binary64", "binary32")
 
 
 @cache
-def bench(precision: str) -> Bench:
+def bench(precision: str) -> Trials:
     rows, _ = select(corpus(precision), Hello("all"), Selection(smoke=True))
-    return Bench(rows, corpus(precision).format)
+    return Trials(rows, corpus(precision).format)
 
 
 @cache
@@ -50,7 +50,7 @@ def test_the_smoke_rows_refuse_every_fault_at_its_level(planted: Fault) -> None:
 def test_the_rows_are_a_cover_of_what_they_serve() -> None:
     """What is chosen for a fault is a row that refuses it at the lowest level of its type."""
     fault = FAULTS[0]
-    found = line(Bench(corpus("binary64").rows[::3], corpus("binary64").format), fault)
+    found = line(Trials(corpus("binary64").rows[::3], corpus("binary64").format), fault)
     needs = {need for _, need in served(fault, found.refusals)}
     assert needs == {(fault.name, type_of(r.row.solid)) for r in found.refusals}
     assert len(served(fault, found.refusals)) <= len(found.refusals)

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from math import inf, sqrt
 from typing import Any
 
-from raycert.oracle.zoo.lists import LINE
+from raycert.oracle.zoo.tracer import LINE
 
 Number = Any
 Vector = tuple[Number, Number, Number]

@@ -37,7 +37,7 @@ from raycert.oracle.measure.methods.formulas import (
     textbook,
 )
 from raycert.oracle.measure.methods.method import FAILURES, Answered, Case, answered
-from raycert.oracle.zoo.lists import LINE, common, share, subtract, unite
+from raycert.oracle.zoo.tracer import LINE, common, share, subtract, unite
 
 Wall = Callable[[Arithmetic, Curve, Vector, Vector, Vector, Number], Found]
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from raycert.cases.model import Difference, Intersection, Leaf, Solid, Tree, Union, leaves
 from raycert.oracle.measure.methods.method import Answered, Case, answered
 from raycert.oracle.measure.methods.vector.kernel import KINDS, Lanes
-from raycert.oracle.zoo.lists import Pairs, share, subtract, unite
+from raycert.oracle.zoo.tracer import Pairs, share, subtract, unite
 
 Shape = tuple[object, ...]
 COMBINE = {Union: unite, Intersection: share, Difference: subtract}
