@@ -47,6 +47,15 @@ class Limits:
     lost: float = 600.0
 
 
+def silence(outcome: Outcome) -> tuple[str, str] | None:
+    """Return the kind and the words of an outcome that is no answer; None for an answer."""
+    if isinstance(outcome, Failure):
+        return outcome.kind, outcome.detail
+    if outcome.unsupported is not None:
+        return "unsupported", outcome.unsupported
+    return None if outcome.error is None else ("error", outcome.error)
+
+
 class Unusable(Exception):
     """The target could not be run at all; the text says what was seen and what to do."""
 

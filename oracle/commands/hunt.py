@@ -27,7 +27,6 @@ from raycert.oracle.commands.options import (
 
 if TYPE_CHECKING:
     from raycert.oracle.client.dialogue import Target
-    from raycert.oracle.hunt.executors import Executor
     from raycert.oracle.hunt.search import Finding, Hunt
     from raycert.oracle.hunt.unit import Job
 
@@ -118,7 +117,7 @@ def _check(options: dict[str, Any]) -> None:
 def _job(target: Target, options: dict[str, Any]) -> Job:
     from raycert.cases.corpus import GOLDEN
     from raycert.cases.model import SOLIDS
-    from raycert.oracle.hunt.look import Asked
+    from raycert.oracle.hunt.look import Criterion
     from raycert.oracle.hunt.unit import Job
 
     try:
@@ -128,7 +127,7 @@ def _job(target: Target, options: dict[str, Any]) -> Job:
     return Job(
         target,
         limits(options),
-        Asked(options["level"], options["convention"], options["far"]),
+        Criterion(options["level"], options["convention"], options["far"]),
         options["seed"],
         options["solids"] or tuple(SOLIDS),
         (options["golden"] or GOLDEN) if options["seeded"] else None,
@@ -137,33 +136,27 @@ def _job(target: Target, options: dict[str, Any]) -> Job:
 
 
 def _hunt(job: Job, options: dict[str, Any]) -> Hunt:
-    from raycert.oracle.client.dialogue import Unusable
-    from raycert.oracle.hunt.executors import Lost
-    from raycert.oracle.hunt.search import Budget
-    from raycert.oracle.hunt.search import hunt as run
-
-    seconds = None if options["cases"] else options["seconds"] or SECONDS
-    budget = Budget(options["cases"], seconds, options["most"])
-    try:
-        with _watched(budget) as on_progress:
-            return run(job, budget, _executor(job, options), on_progress)
-    except (Unusable, Lost) as error:
-        stop(str(error))
-
-
-def _executor(job: Job, options: dict[str, Any]) -> Executor:
+    """Run the hunt where its units are to be done."""
     from functools import partial
 
-    from raycert.oracle.hunt.executors import Here, Processes
-    from raycert.oracle.hunt.unit import work
+    from raycert.oracle.client.dialogue import Unusable
+    from raycert.oracle.hunt.executors import Cluster, Executor, Here, Lost, Processes
+    from raycert.oracle.hunt.search import Budget
+    from raycert.oracle.hunt.search import hunt as run
+    from raycert.oracle.hunt.ways import work
 
-    if options["scheduler"]:
-        from raycert.oracle.hunt.cluster import Cluster
-
-        return Cluster(partial(work, job), options["scheduler"])
-    if options["workers"] > 1:
-        return Processes(partial(work, job), options["workers"])
-    return Here(partial(work, job))
+    seconds = None if options["cases"] else options["seconds"] or SECONDS
+    budget, work_here = Budget(options["cases"], seconds, options["most"]), partial(work, job)
+    try:
+        with _watched(budget) as on_progress:
+            executor: Executor = Here(work_here)
+            if options["scheduler"]:
+                executor = Cluster(work_here, options["scheduler"])
+            elif options["workers"] > 1:
+                executor = Processes(work_here, options["workers"])
+            return run(job, budget, executor, on_progress)
+    except (Unusable, Lost) as error:
+        stop(str(error))
 
 
 @contextmanager
@@ -225,27 +218,26 @@ def _written(
 def _print(
     found: Hunt, findings: dict[str, Finding], target: tuple[str, ...], options: dict[str, Any]
 ) -> None:
+    from json import dumps
+
     from raycert.oracle.corpus.golden import show
     from raycert.oracle.exact.trace import trace
-    from raycert.oracle.hunt.keep import answer_line, case_line
+    from raycert.oracle.hunt.keep import answer, case
 
     for id, finding in findings.items():
-        click.echo(f"{id}  {finding.fault.level} fails: {finding.cause}")
-        click.echo(f"  case     {case_line(finding.probe)}")
+        click.echo(f"{id}  {finding.flaw.level} fails: {finding.symptom}")
+        click.echo(f"  case     {dumps(case(finding.probe))}")
         for probe in finding.before:
-            click.echo(f"  after    {case_line(probe)}")
-        click.echo(f"  answer   {answer_line(finding.outcome)}")
+            click.echo(f"  after    {dumps(case(probe))}")
+        click.echo(f"  answer   {dumps(answer(finding.outcome))}")
         click.echo(f"  exact    {show(trace(*finding.probe).intervals)}")
-        click.echo(f"  because  {finding.fault.reason}")
+        click.echo(f"  because  {finding.flaw.reason}")
         if not finding.repeats:
             click.echo("  It did not come again in a new process, so no row was written.")
     click.echo(f"{status(found)}, {found.seconds:.0f} s, seed {options['seed']}" + _end(found))
     if any(finding.repeats for finding in findings.values()):
-        words = shlex.join(spelled(target))
-        click.echo(
-            f"replay: raycert certify --golden {shlex.quote(str(options['out']))} "
-            f"--level {options['level']} {words}"
-        )
+        replay = ("raycert", "certify", "--golden", str(options["out"]), "--level")
+        click.echo("replay: " + shlex.join((*replay, options["level"], *spelled(target))))
 
 
 def _end(found: Hunt) -> str:

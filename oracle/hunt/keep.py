@@ -20,7 +20,7 @@ from raycert.cases.forms import write_ray, write_solid
 from raycert.cases.numbers import Probe
 from raycert.cases.protocol import Reply
 from raycert.cases.row import GoldenRow
-from raycert.oracle.client.dialogue import Outcome
+from raycert.oracle.client.dialogue import Outcome, silence
 from raycert.oracle.corpus.golden import USUAL, golden_row
 from raycert.oracle.hunt.look import Looker
 from raycert.oracle.hunt.search import Finding, Hunt
@@ -36,22 +36,23 @@ def family(seed: int) -> str:
 
 def named(findings: Iterable[Finding], seed: int) -> dict[str, Finding]:
     """Return findings by their ids: `hunt-7/missed-sphere-1`."""
-    found: dict[str, Finding] = {}
+    names: dict[str, Finding] = {}
     for finding in findings:
-        cause = finding.cause
-        words = f"{cause.kind}-{cause.shape.partition('(')[0]}".replace(" ", "-").replace("_", "-")
+        symptom = finding.symptom
+        words = f"{symptom.kind}-{symptom.shape.partition('(')[0]}".replace(" ", "-").replace(
+            "_", "-"
+        )
         stem = f"{family(seed)}/{words}"
-        number = 1 + sum(id.rpartition("-")[0] == stem for id in found)
-        found[f"{stem}-{number}"] = finding
-    return found
+        number = 1 + sum(id.rpartition("-")[0] == stem for id in names)
+        names[f"{stem}-{number}"] = finding
+    return names
 
 
 def rows(findings: dict[str, Finding], looker: Looker) -> list[GoldenRow]:
     """Return the golden rows of findings that repeat. Raises `Contradiction`."""
     made = []
-    for id, finding in findings.items():
-        if not finding.repeats:
-            continue
+    repeating = ((id, finding) for id, finding in findings.items() if finding.repeats)
+    for id, finding in repeating:
         for i, probe in enumerate(finding.before, 1):
             made.append(_row(f"{id}-before-{i}", "Is asked before the next row.", probe, looker))
         why = f"A hunt found an answer here that fails: {_why(finding)}."
@@ -60,7 +61,7 @@ def rows(findings: dict[str, Finding], looker: Looker) -> list[GoldenRow]:
 
 
 def _why(finding: Finding) -> str:
-    text = f"{finding.fault.level}, {finding.fault.kind}: {finding.fault.reason}"
+    text = f"{finding.flaw.level}, {finding.flaw.kind}: {finding.flaw.reason}"
     return text.encode("ascii", "backslashreplace").decode()[:200]
 
 
@@ -70,24 +71,20 @@ def _row(id: str, why: str, probe: Probe, looker: Looker) -> GoldenRow:
     return golden_row(Family(name, "", lambda _: ()), asked, looker.hello.format, USUAL)
 
 
-def write(folder: Path, seed: int, made: Sequence[GoldenRow], fmt: Format, report: Json) -> None:
+def write(folder: Path, seed: int, rows: Sequence[GoldenRow], fmt: Format, report: Json) -> None:
     """Write the rows of a hunt, the manifest of the whole directory, and the report."""
     own = f"{fmt.name}/{family(seed)}.jsonl"
-    files = {name: (folder / name).read_bytes() for name in _others(folder) if name != own}
-    if made:
-        files[own] = encode_rows(made, fmt)
+    there = read_manifest(folder)["files"] if (folder / MANIFEST).exists() else ()
+    others = (name for name in there if name != own and (folder / name).is_file())
+    files = {name: (folder / name).read_bytes() for name in others}
+    if rows:
+        files[own] = encode_rows(rows, fmt)
         write_whole(folder / own, files[own])
     else:
         (folder / own).unlink(missing_ok=True)
     write_whole(folder / MANIFEST, manifest(files))
     text = json.dumps(report, indent=1, allow_nan=False) + "\n"
     write_whole(folder / REPORT, text.encode())
-
-
-def _others(folder: Path) -> list[str]:
-    if not (folder / MANIFEST).exists():
-        return []
-    return [name for name in read_manifest(folder)["files"] if (folder / name).is_file()]
 
 
 def form(found: Hunt, findings: dict[str, Finding], asked: Json) -> Json:
@@ -105,12 +102,12 @@ def form(found: Hunt, findings: dict[str, Finding], asked: Json) -> Json:
 
 def _finding(finding: Finding) -> Json:
     return {
-        "cause": str(finding.cause),
-        "level": finding.fault.level,
-        "kind": finding.fault.kind,
-        "reason": finding.fault.reason,
+        "cause": str(finding.symptom),
+        "level": finding.flaw.level,
+        "kind": finding.flaw.kind,
+        "reason": finding.flaw.reason,
         "k": _number(finding.k),
-        "answer": said(finding.outcome),
+        "answer": answer(finding.outcome),
         "repeats": finding.repeats,
         "seconds": round(finding.after, 1),
         **case(finding.probe),
@@ -119,30 +116,18 @@ def _finding(finding: Finding) -> Json:
     }
 
 
-def case_line(probe: Probe) -> str:
-    """Return a probe as a line of the protocol, without an id."""
-    return json.dumps(case(probe))
-
-
-def answer_line(outcome: Outcome) -> str:
-    """Return what was answered, as a line."""
-    return json.dumps(said(outcome))
-
-
 def case(probe: Probe) -> Json:
-    """Return a probe as in a line of the protocol."""
+    """Return a probe as in a line of the protocol, without an id."""
     return {"solid": write_solid(probe.solid), "ray": write_ray(probe.ray)}
 
 
-def said(outcome: Outcome) -> Any:
+def answer(outcome: Outcome) -> Any:
     """Return what was answered, as JSON."""
-    if not isinstance(outcome, Reply):
-        return {outcome.kind: outcome.detail}
+    if silent := silence(outcome):
+        return dict([silent])
+    assert isinstance(outcome, Reply)
     if outcome.intervals is not None:
         return [[_number(a), _number(b)] for a, b in outcome.intervals]
-    for name in ("error", "unsupported"):
-        if (text := getattr(outcome, name)) is not None:
-            return {name: text}
     if outcome.hit is not None:
         return outcome.hit
     return None if outcome.first is None else _number(outcome.first)

@@ -3,35 +3,42 @@
 What is asked for is decided as `certify.grading` does, on cases that decide the level: the exact
 list first; an answer whose ends are among the two numbers around the exact ones is `stable`; only
 for others are the faces moved.
+
+What tells two failures apart, once they are as simple as they get, is their symptom, not their
+digits: the level and the kind, of an error its first words; the shape of the solid; the rows of the
+case table that the exact answer takes, without the comparisons.
 """
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from math import inf
 
 from raycert.cases.accept import Accept
 from raycert.cases.case import Case, Family, Tier
 from raycert.cases.lattice import is_lattice
-from raycert.cases.levels import LEVELS, Level, upto
+from raycert.cases.levels import Level, upto
 from raycert.cases.model import (
     SOLIDS,
     HalfSpace,
     Leaf,
     Ray,
+    Solid,
     Sphere,
     Tree,
     leaves,
+    type_of,
     types,
 )
 from raycert.cases.numbers import Probe, is_usual
 from raycert.cases.protocol import Hello, Reply, convention
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import grade
-from raycert.oracle.client.dialogue import Outcome
-from raycert.oracle.client.process import Failure
+from raycert.oracle.client.dialogue import Outcome, silence
 from raycert.oracle.corpus.golden import golden_row
 from raycert.oracle.exact.faces import touch
+from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.answer import Claim, First, Listed, claim
 from raycert.oracle.judge.decisive import decisive
 from raycert.oracle.judge.levels import Judge
@@ -41,9 +48,13 @@ from raycert.oracle.zoo.matrix import kind
 COARSE = (8, 12, 16, 20, *range(28, LAST_STEP, 8), LAST_STEP)
 """The steps of k = 1, 4, 16, 64, 1024, ...: as near as the search has to know a backward error."""
 
+SILENT = ("error", "crash", "unsupported", "bad-line", "unrepeated")
+UNREPEATED = "unrepeated"
+"""The kind of a failure that does not come again in a new process: only its words count."""
+
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class Criterion:
     """What is a failure: of a level, of a convention on the lattice if one is asked for.
 
     Cases of the range tier count only with `far`.
@@ -55,7 +66,7 @@ class Asked:
 
 
 @dataclass(frozen=True, slots=True)
-class Fault:
+class Flaw:
     """How an answer fails: the first level that it fails, or `convention`; the kind; in words."""
 
     level: str
@@ -64,15 +75,15 @@ class Fault:
 
 
 @dataclass(frozen=True, slots=True)
-class Seen:
-    """What came of a look: the fault if there is one, about how large k is (1 where <= 1), ulps."""
+class Look:
+    """What came of a look: the flaw if there is one, about how large k is (1 where <= 1), ulps."""
 
-    fault: Fault | None = None
+    flaw: Flaw | None = None
     k: float = 1.0
     ulps: float = 0.0
 
 
-RIGHT = Seen()
+RIGHT = Look()
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,97 +91,87 @@ class Looker:
     """Judges the answers of a target that said this hello, on the types of solid wanted of it."""
 
     hello: Hello
-    asked: Asked
+    criterion: Criterion
     solids: tuple[str, ...] = tuple(SOLIDS)
 
     def tier(self, probe: Probe) -> Tier:
         """Return the tier of a probe; the lattice's is only for a convention that is asked for."""
         if not is_usual(probe, self.hello.format):
             return "range"
-        on_lattice = self.asked.convention is not None and is_lattice(probe.solid, probe.ray)
+        on_lattice = self.criterion.convention is not None and is_lattice(probe.solid, probe.ray)
         return "lattice" if on_lattice else "generic"
 
     def wants(self, probe: Probe) -> bool:
-        """Tell whether a probe is asked: its types are declared and wanted, its numbers usual."""
+        """Whether a probe is asked: its types are declared and wanted, its numbers usual."""
         names = types(probe.solid)
         if not names <= {*self.solids} & {*self.hello.solids}:
             return False
-        return self.asked.far or is_usual(probe, self.hello.format)
+        return self.criterion.far or is_usual(probe, self.hello.format)
 
     def judge(self, probe: Probe) -> Judge:
         """Return the judge of a probe."""
         fmt, tolerance = self.hello.format, self.hello.tolerance
         return Judge(probe.solid, probe.ray, fmt, self.tier(probe), tolerance)
 
-    def __call__(self, probe: Probe, outcome: Outcome) -> Seen:
+    def __call__(self, probe: Probe, outcome: Outcome) -> Look:
         """Return what comes of a look at an answer."""
-        silent = _silence(outcome)
-        if silent:
-            return Seen(silent, inf)
+        if silent := silence(outcome):
+            return Look(Flaw("sound", *silent), inf)
         assert isinstance(outcome, Reply)
         said, judge = claim(outcome, self.hello), self.judge(probe)
         if isinstance(said, Listed) and said.pairs == judge.expected:
-            return RIGHT if self.asked.convention is None else Seen(self._unkept(said, judge))
-        malformed = said.malformed(judge)
-        if malformed:
-            return Seen(Fault("sound", "malformed", malformed), inf)
+            return RIGHT if self.criterion.convention is None else Look(self._unkept(said, judge))
+        if malformed := said.malformed(judge):
+            return Look(Flaw("sound", "malformed", malformed), inf)
         if unkept := self._unkept(said, judge):
-            return Seen(unkept)
+            return Look(unkept)
         if said.is_faithful(judge.expected, judge.enclosures) is None:
-            return Seen(self._finer(probe, outcome)) if self.asked.level == "exact" else RIGHT
+            return Look(self._finer(probe, outcome)) if self.criterion.level == "exact" else RIGHT
         k = coarse_k(said, judge)
-        fault = self._gross(said, judge)
-        if fault is None and LEVELS.index(self.asked.level) > LEVELS.index("stable"):
-            fault = self._finer(probe, outcome)
-        return Seen(fault, k, said.forward_error(judge))
+        flaw = self._gross(said, judge)
+        if flaw is None and self.criterion.level in ("faithful", "exact"):
+            flaw = self._finer(probe, outcome)
+        return Look(flaw, k, said.forward_error(judge))
 
-    def _unkept(self, said: Claim, judge: Judge) -> Fault | None:
-        """Return the fault of a touch kept or dropped against the convention asked for."""
-        if (
-            judge.tier != "lattice"
-            or self.asked.convention is None
-            or isinstance(judge.solid, Tree)
-        ):
+    def _unkept(self, said: Claim, judge: Judge) -> Flaw | None:
+        """Return the flaw of a touch kept or dropped against the convention asked for."""
+        wanted = self.criterion.convention
+        if judge.tier != "lattice" or wanted is None or isinstance(judge.solid, Tree):
             return None
         touches = [touch(interval, judge.solid, judge.ray) for interval in judge.exact]
         name = next((name for name in touches if name), None)
         kept = said.keeps_touch(judge.expected) if name else None
-        if name is None or kept is None or kept == convention(self.asked.convention)[name]:
+        if name is None or kept is None or kept == convention(wanted)[name]:
             return None
         how = "kept" if kept else "dropped"
-        return Fault("convention", f"touch {how}", f"a touch ({name}) is {how}")
+        return Flaw("convention", f"touch {how}", f"a touch ({name}) is {how}")
 
-    def _gross(self, said: Claim, judge: Judge) -> Fault | None:
+    def _gross(self, said: Claim, judge: Judge) -> Flaw | None:
         """Return how an answer fails `sound` or `stable`, as far as they are asked."""
-        upto: tuple[Level, ...] = ("sound",) if self.asked.level == "sound" else ("stable", "sound")
-        failed: list[tuple[Level, Accept, str]] = []
-        for level in upto:  # what is stable is sound
+        flaw, decides = None, None
+        levels: tuple[Level, ...] = ("stable", "sound")  # what is stable is sound
+        for level in levels if self.criterion.level != "sound" else levels[1:]:
             accept = judge.accept(level)
             reason = said.fault(accept)
             if not reason:
                 break
-            failed.append((level, accept, reason))
-        if not failed:
-            return None
-        decides = deciding(judge)
-        for level, accept, reason in reversed(failed):
-            if level in decides:
-                return Fault(level, how(said, accept), reason)
-        return None
+            decides = decides or deciding(judge)
+            flaw = Flaw(level, how(said, accept), reason) if level in decides else flaw
+        return flaw
 
-    def _finer(self, probe: Probe, outcome: Outcome) -> Fault | None:
+    def _finer(self, probe: Probe, outcome: Outcome) -> Flaw | None:
         """Return how an answer fails `faithful` or `exact`, where it is stable."""
         graded = grade(row(probe, self), outcome, self.hello)
-        for level in upto(self.asked.level):
+        for level in upto(self.criterion.level):
             if reason := graded.fault(level):
                 pairs, wanted = len(graded.answer or ()), len(graded.row.expected)
                 shape = "missed" if pairs < wanted else "phantom" if pairs > wanted else "wrong end"
-                return Fault(level, shape, reason)
+                return Flaw(level, shape, reason)
         return None
 
     def true_k(self, probe: Probe, outcome: Outcome) -> float:
         """Return the strict backward error of an answer; 0 where the probe does not decide."""
-        if not isinstance(outcome, Reply) or _silence(outcome):
+        if not isinstance(outcome, Reply) or silence(outcome):
             return inf
         judge = self.judge(probe)
         if "stable" not in deciding(judge):
@@ -197,7 +198,7 @@ def deciding(judge: Judge) -> tuple[Level, ...]:
 
 
 def _is_pinned(leaf: Leaf, ray: Ray) -> bool:
-    """Tell whether a leaf has no size where the ray starts on it."""
+    """Whether a leaf has no size where the ray starts on it."""
     match leaf:
         case HalfSpace(point, _):
             return not any((*point, *ray.origin))
@@ -211,12 +212,12 @@ def coarse_k(said: Claim, judge: Judge) -> float:
     if not isinstance(said, Listed):
         return max(said.backward_error(judge, "strict"), 1.0)
     pairs = said.pairs
-    found = next((step for step in COARSE if judge.accepts(pairs, step, "strict")), None)
-    return inf if found is None else 2.0 ** (found // 2 - 4)
+    first = next((step for step in COARSE if judge.accepts(pairs, step, "strict")), None)
+    return inf if first is None else 2.0 ** (first // 2 - 4)
 
 
 def how(said: Claim, accept: Accept) -> str:
-    """Return the kind of a gross fault."""
+    """Return the kind of a gross flaw."""
     if isinstance(said, Listed):
         return kind(accept.outer, accept.inner, said.pairs)
     if isinstance(said, First):
@@ -226,11 +227,38 @@ def how(said: Claim, accept: Accept) -> str:
     return "phantom" if accept.inner == () else "missed"
 
 
-def _silence(outcome: Outcome) -> Fault | None:
-    """Return the fault of an outcome that is no answer."""
-    if isinstance(outcome, Failure):
-        return Fault("sound", outcome.kind, outcome.detail)
-    for name in ("error", "unsupported"):
-        if (text := getattr(outcome, name)) is not None:
-            return Fault("sound", name, text)
-    return None
+@dataclass(frozen=True, slots=True)
+class Symptom:
+    """A key: failures with the same one count as one."""
+
+    level: str
+    kind: str
+    words: str
+    shape: str
+    rows: tuple[str, ...]
+
+    def __str__(self) -> str:
+        where = f" ({' '.join(self.rows)})" if self.rows else ""
+        return f"{self.kind} on {self.shape}{where}"
+
+
+def symptom(probe: Probe, flaw: Flaw) -> Symptom:
+    """Return the symptom of a failure."""
+    first = re.sub(r"[^A-Za-z ]+", " ", flaw.reason).split()[:4] if flaw.kind in SILENT else []
+    words = " ".join(first)
+    if flaw.kind == UNREPEATED:
+        return Symptom(flaw.level, flaw.kind, words, "any solid", ())
+    return Symptom(flaw.level, flaw.kind, words, shape(probe.solid), rows_taken(probe))
+
+
+def shape(solid: Solid) -> str:
+    """Return the types of a solid and its parts: `difference(sphere, slab)`."""
+    if isinstance(solid, Tree):
+        return f"{type_of(solid)}({', '.join(shape(part) for part in solid.of)})"
+    return type_of(solid)
+
+
+def rows_taken(probe: Probe) -> tuple[str, ...]:
+    """Return the rows that the exact answer takes, each once, without paths and comparisons."""
+    names = (name.rpartition(":")[2] for name in trace(probe.solid, probe.ray).rows)
+    return tuple(sorted({name for name in names if not re.search("[<>=]", name)}))

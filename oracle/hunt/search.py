@@ -16,14 +16,11 @@ from math import inf
 
 from raycert.cases.numbers import Probe
 from raycert.oracle.client.dialogue import Outcome, Unusable
-from raycert.oracle.hunt.cause import UNREPEATED, Cause, cause
 from raycert.oracle.hunt.executors import Executor, Lost
-from raycert.oracle.hunt.ledger import Ledger
-from raycert.oracle.hunt.look import Fault, Looker
+from raycert.oracle.hunt.look import UNREPEATED, Flaw, Looker, Symptom, symptom
 from raycert.oracle.hunt.session import Clock, Session, TimeUp
-from raycert.oracle.hunt.shrink import Shrinker
-from raycert.oracle.hunt.simple import cost
-from raycert.oracle.hunt.unit import CASES, EACH, Done, Failing, Job, Unit, Worst, coarse
+from raycert.oracle.hunt.shrink import Shrinker, cost
+from raycert.oracle.hunt.unit import CASES, EACH, Haul, Job, Ledger, Suspect, Unit, Worst, coarse
 
 LINGER = 2.0
 """Seconds after the last for units to give what they have."""
@@ -49,9 +46,9 @@ class Finding:
     `first` is the case as it was found. `repeats` is False for a failure that never came again.
     """
 
-    cause: Cause
+    symptom: Symptom
     probe: Probe
-    fault: Fault
+    flaw: Flaw
     outcome: Outcome
     first: Probe
     k: float
@@ -67,15 +64,15 @@ class Hunt:
     looker: Looker
     tried: int = 0
     worst: Worst = field(default_factory=Worst)
-    findings: dict[Cause, Finding] = field(default_factory=dict)
+    findings: dict[Symptom, Finding] = field(default_factory=dict)
     seconds: float = 0.0
     ended: str = "budget"
 
 
-Look = Callable[[Hunt], None]
+Progress = Callable[[Hunt], None]
 
 
-def hunt(job: Job, budget: Budget, executor: Executor, on_progress: Look | None = None) -> Hunt:
+def hunt(job: Job, budget: Budget, executor: Executor, on_progress: Progress | None = None) -> Hunt:
     """Hunt until the budget is used up, or the person interrupts.
 
     Raises `Unusable` if the target cannot be run from the beginning; and `Unusable` and `Lost`
@@ -105,7 +102,7 @@ def hunt(job: Job, budget: Budget, executor: Executor, on_progress: Look | None 
 class _Course:
     """A hunt under way."""
 
-    def __init__(self, job: Job, budget: Budget, executor: Executor, on_progress: Look) -> None:
+    def __init__(self, job: Job, budget: Budget, executor: Executor, on_progress: Progress) -> None:
         self.ledger = Ledger()
         self._budget, self._executor, self._on_progress = budget, executor, on_progress
         self._began = time.monotonic()
@@ -145,7 +142,7 @@ class _Course:
             self._out -= self.ledger.add(result)
         self._tell()
 
-    def _take(self, results: Iterator[Done]) -> bool:
+    def _take(self, results: Iterator[Haul]) -> bool:
         """Take up results in turn; return whether enough was found."""
         for result in results:
             for _ in self._catch.take(result):
@@ -172,41 +169,45 @@ class Catch:
     def __init__(self, job: Job, clock: Clock, began: float) -> None:
         """Start the target here, where failures are confirmed and shrunk. Raises `Unusable`."""
         self.session = Session(job.target, job.limits)
-        self.looker = Looker(self.session.hello, job.asked, job.solids)
+        self.looker = Looker(self.session.hello, job.criterion, job.solids)
         self.found = Hunt(self.looker)
         self._clock, self._began = clock, began
         self._counts: Counter[tuple[str, str, str]] = Counter()
 
-    def take(self, result: Done) -> Iterator[None]:
+    def take(self, result: Haul) -> Iterator[None]:
         """Take up the failures of a unit, one a step: of each coarse cause only the first few."""
         if result.worst.k > self.found.worst.k:
             self.found.worst = result.worst
-        for failing in result.failures:
-            self._counts[coarse(failing)] += 1
-            if self._counts[coarse(failing)] <= EACH:
-                self._add(self._confirmed(failing))
+        for suspect in result.failures:
+            self._counts[coarse(suspect)] += 1
+            if self._counts[coarse(suspect)] <= EACH:
+                self._add(self._confirmed(suspect))
             yield
 
     def _add(self, finding: Finding | None) -> None:
         """Keep a finding, unless a simpler one has the same cause."""
         if finding is None:
             return
-        old = self.found.findings.get(finding.cause)
+        old = self.found.findings.get(finding.symptom)
         if old is None or cost(finding.probe) < cost(old.probe):
-            self.found.findings[finding.cause] = finding
+            self.found.findings[finding.symptom] = finding
 
-    def _confirmed(self, failing: Failing) -> Finding | None:
+    def _afresh(self, probe: Probe, before: Sequence[Probe]) -> tuple[Outcome, Flaw | None]:
+        """Return what a new process answers to a probe after some others, and its flaw."""
+        *_, outcome = self.session.fresh([*before, probe])
+        return outcome, self.looker(probe, outcome).flaw
+
+    def _confirmed(self, suspect: Suspect) -> Finding | None:
         """Return the finding that a failure makes: alone, after some others, or never again."""
         lost = any(known.kind == UNREPEATED for known in self.found.findings)
-        for length in range(1 if lost else len(failing.before) + 1):
-            before = failing.before[len(failing.before) - length :]
-            *_, outcome = self.session.fresh([*before, failing.probe])
-            seen = self.looker(failing.probe, outcome)
-            if seen.fault:
-                return self._shrunk(failing, seen.fault, before)
-        return self._unrepeated(failing, outcome)
+        for length in range(1 if lost else len(suspect.before) + 1):
+            before = suspect.before[len(suspect.before) - length :]
+            outcome, flaw = self._afresh(suspect.probe, before)
+            if flaw:
+                return self._shrunk(suspect, flaw, before)
+        return self._unrepeated(suspect, outcome)
 
-    def _shrunk(self, failing: Failing, fault: Fault, before: tuple[Probe, ...]) -> Finding | None:
+    def _shrunk(self, suspect: Suspect, flaw: Flaw, before: tuple[Probe, ...]) -> Finding | None:
         """Return the finding of a failure that was confirmed; None if its cause is known."""
 
         def fails(probes: Sequence[Probe]) -> list[bool]:
@@ -214,54 +215,58 @@ class Catch:
                 raise TimeUp
             asked = [s for probe in probes for s in (*before, probe)]
             outcomes = self.session.ask(asked)[len(before) :: len(before) + 1]
-            return [self._same(s, o, fault) for s, o in zip(probes, outcomes, strict=True)]
+            return [self._same(s, o, flaw) for s, o in zip(probes, outcomes, strict=True)]
 
         def is_known(probe: Probe) -> bool:
-            old = self.found.findings.get(cause(probe, fault))
+            old = self.found.findings.get(symptom(probe, flaw))
             return old is not None and cost(old.probe) <= cost(probe)
 
-        shrinker = Shrinker(failing.probe, fails, self.looker.hello.format)
+        shrinker = Shrinker(suspect.probe, fails, self.looker.hello.format)
         try:
             shrinker.run(is_known)
         except (TimeUp, KeyboardInterrupt):
-            self._add(self._finished(shrinker.best, failing, fault, before))
+            self._add(self._finished(shrinker.best, suspect, before))
             raise
         if is_known(shrinker.best):
             return None
-        return self._finished(shrinker.best, failing, fault, before)
+        return self._finished(shrinker.best, suspect, before)
 
-    def _finished(
-        self, best: Probe, failing: Failing, fault: Fault, before: tuple[Probe, ...]
-    ) -> Finding:
+    def _finished(self, best: Probe, suspect: Suspect, before: tuple[Probe, ...]) -> Finding:
         """Return the finding, its simplest case asked once more of a new process."""
-        for probe in (best, failing.probe):
-            *_, outcome = self.session.fresh([*before, probe])
-            seen = self.looker(probe, outcome)
-            if seen.fault:
-                return self._finding(failing, probe, seen.fault, before, outcome)
-        return self._unrepeated(failing, outcome)
+        for probe in (best, suspect.probe):
+            outcome, again = self._afresh(probe, before)
+            if again:
+                return self._finding(suspect, probe, again, before, outcome)
+        return self._unrepeated(suspect, outcome)
 
-    def _unrepeated(self, failing: Failing, outcome: Outcome) -> Finding:
-        fault = replace(failing.fault, kind=UNREPEATED)
-        return self._finding(failing, failing.probe, fault, (), outcome, repeats=False)
+    def _unrepeated(self, suspect: Suspect, outcome: Outcome) -> Finding:
+        flaw = replace(suspect.flaw, kind=UNREPEATED)
+        return self._finding(suspect, suspect.probe, flaw, (), outcome, repeats=False)
 
-    def _same(self, probe: Probe, outcome: Outcome, fault: Fault) -> bool:
-        """Tell whether a case fails in the same way, on the same level or a weaker one."""
-        seen = self.looker(probe, outcome).fault if self.looker.wants(probe) else None
-        if seen is None or seen.kind != fault.kind:
+    def _same(self, probe: Probe, outcome: Outcome, flaw: Flaw) -> bool:
+        """Whether a case fails in the same way, on the same level or a weaker one."""
+        seen = self.looker(probe, outcome).flaw if self.looker.wants(probe) else None
+        if seen is None or seen.kind != flaw.kind:
             return False
-        return seen.level == fault.level or (seen.level, fault.level) == ("sound", "stable")
+        return seen.level == flaw.level or (seen.level, flaw.level) == ("sound", "stable")
 
     def _finding(
         self,
-        failing: Failing,
+        suspect: Suspect,
         probe: Probe,
-        fault: Fault,
+        flaw: Flaw,
         before: tuple[Probe, ...],
         outcome: Outcome,
         repeats: bool = True,
     ) -> Finding:
-        k = self.looker.true_k(probe, outcome)
-        after = time.monotonic() - self._began
-        key = cause(probe, fault)
-        return Finding(key, probe, fault, outcome, failing.probe, k, before, repeats, after)
+        return Finding(
+            symptom=symptom(probe, flaw),
+            probe=probe,
+            flaw=flaw,
+            outcome=outcome,
+            first=suspect.probe,
+            k=self.looker.true_k(probe, outcome),
+            before=before,
+            repeats=repeats,
+            after=time.monotonic() - self._began,
+        )

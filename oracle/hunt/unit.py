@@ -2,11 +2,17 @@
 
 The same unit of the same job gives the same result wherever it is done, and however often: so a
 unit that was lost with its worker is done again. Of three units two are of the directed search, and
-one of that which Hypothesis drives. The target is started anew for each.
+one of that which Hypothesis drives (ways). The target is started anew for each.
+
+The ledger has the results. One may come twice, where a unit was done again because its worker
+seemed lost; it is the same one, and the second is dropped. Results that come early wait for the
+ones before them, so that what a hunt finds does not depend on who was faster.
 """
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from math import inf
 from pathlib import Path
@@ -15,9 +21,8 @@ from raycert.cases.corpus import GOLDEN
 from raycert.cases.model import SOLIDS
 from raycert.cases.numbers import Probe
 from raycert.oracle.client.dialogue import Limits, Outcome, Target
-from raycert.oracle.corpus.fresh import possible
-from raycert.oracle.hunt.look import Asked, Fault, Looker, Seen
-from raycert.oracle.hunt.session import Clock, Session, TimeUp
+from raycert.oracle.hunt.look import Criterion, Flaw, Look, Looker
+from raycert.oracle.hunt.session import Clock, Session
 
 CASES = 1000
 """Cases of a unit."""
@@ -33,7 +38,7 @@ class Job:
 
     target: Target
     limits: Limits = field(default_factory=Limits)
-    asked: Asked = field(default_factory=Asked)
+    criterion: Criterion = field(default_factory=Criterion)
     seed: int = 0
     solids: tuple[str, ...] = tuple(SOLIDS)
     golden: Path | None = GOLDEN
@@ -51,11 +56,11 @@ class Unit:
 
 
 @dataclass(frozen=True, slots=True)
-class Failing:
+class Suspect:
     """A case that the target got wrong, and what it was asked before."""
 
     probe: Probe
-    fault: Fault
+    flaw: Flaw
     before: tuple[Probe, ...] = ()
 
 
@@ -68,27 +73,26 @@ class Worst:
 
 
 @dataclass(frozen=True, slots=True)
-class Done:
+class Haul:
     """What came of a unit. `cut` says that it ended before its cases did."""
 
     number: int
     tried: int
     worst: Worst
-    failures: tuple[Failing, ...]
+    failures: tuple[Suspect, ...]
     cut: bool = False
 
 
-def coarse(failing: Failing) -> tuple[str, str, str]:
+def coarse(suspect: Suspect) -> tuple[str, str, str]:
     """Return what tells failures apart before they are made simple: level, kind, type of solid."""
-    fault = failing.fault
-    return fault.level, fault.kind, type(failing.probe.solid).__name__
+    return suspect.flaw.level, suspect.flaw.kind, type(suspect.probe.solid).__name__
 
 
 class Spent(BaseException):
     """The cases of a unit are used up. No `Exception`, as `TimeUp`."""
 
 
-class Field:
+class Site:
     """Where a unit works: probes in, what was seen out; failures and the worst k are kept."""
 
     def __init__(self, job: Job, unit: Unit) -> None:
@@ -97,14 +101,14 @@ class Field:
         self.clock = Clock.of(unit.seconds)
         self.session = Session(job.target, job.limits, self.clock)
         hello = self.session.hello
-        self.looker = Looker(hello, job.asked, job.solids)
+        self.looker = Looker(hello, job.criterion, job.solids)
         self.solids = tuple(name for name in job.solids if name in hello.solids)
         self.worst = Worst()
-        self.failures: list[Failing] = []
-        self._counts: dict[tuple[str, str, str], int] = {}
+        self.failures: list[Suspect] = []
+        self._counts = Counter[tuple[str, str, str]]()
         self._history: tuple[Probe, ...] = ()
 
-    def look(self, probes: list[Probe]) -> list[tuple[Probe, Seen]]:
+    def look(self, probes: list[Probe]) -> list[tuple[Probe, Look]]:
         """Ask the probes that count. Raises `Spent` once no case is left, and `TimeUp`."""
         self.clock.check()
         left = self.unit.cases - self.tried
@@ -118,42 +122,53 @@ class Field:
             seen.append((probe, self._note(probe, outcome)))
         return seen
 
-    def _note(self, probe: Probe, outcome: Outcome) -> Seen:
+    def _note(self, probe: Probe, outcome: Outcome) -> Look:
         self.tried += 1
         seen, before = self.looker(probe, outcome), self._history
         self._history = (*before, probe)[-HISTORY:]
-        if seen.fault:
-            self._keep(Failing(probe, seen.fault, before))
-        if seen.k > max(self.worst.k, 1.0) and (seen.k < inf or seen.fault):
+        if seen.flaw:
+            suspect = Suspect(probe, seen.flaw, before)
+            self._counts[coarse(suspect)] += 1
+            if self._counts[coarse(suspect)] <= EACH:
+                self.failures.append(suspect)
+        if seen.k > max(self.worst.k, 1.0) and (seen.k < inf or seen.flaw):
             k = self.looker.true_k(probe, outcome)
             self.worst = Worst(k, probe) if k > self.worst.k else self.worst
         return seen
 
-    def _keep(self, failing: Failing) -> None:
-        key = coarse(failing)
-        self._counts[key] = self._counts.get(key, 0) + 1
-        if self._counts[key] <= EACH:
-            self.failures.append(failing)
-
-    def done(self, cut: bool) -> Done:
+    def haul(self, cut: bool) -> Haul:
         """Return the result so far."""
-        return Done(self.unit.number, self.tried, self.worst, tuple(self.failures), cut)
+        return Haul(self.unit.number, self.tried, self.worst, tuple(self.failures), cut)
 
 
-def work(job: Job, unit: Unit) -> Done:
-    """Do a unit. On `KeyboardInterrupt` what is known is returned, cut. Raises `Unusable`."""
-    from raycert.oracle.hunt.directed import directed
-    from raycert.oracle.hunt.drawn import drawn
+class Ledger:
+    """The results so far."""
 
-    ways = {"directed": directed, "drawn": drawn}
-    place = Field(job, unit)
-    try:
-        if possible(place.solids):
-            ways[job.methods[unit.number % len(job.methods)]](place)
-    except Spent:
-        return place.done(cut=False)
-    except (TimeUp, KeyboardInterrupt):
-        return place.done(cut=True)
-    finally:
-        place.session.close()
-    return place.done(cut=False)
+    def __init__(self) -> None:
+        """Begin at unit 0."""
+        self.results: dict[int, Haul] = {}
+        self._next = 0
+
+    def add(self, result: Haul) -> bool:
+        """Count a result; return whether it is new."""
+        if result.number in self.results:
+            return False
+        self.results[result.number] = result
+        return True
+
+    def in_order(self) -> Iterator[Haul]:
+        """Yield the results whose turn it is, each once."""
+        while self._next in self.results:
+            self._next += 1
+            yield self.results[self._next - 1]
+
+    def rest(self) -> Iterator[Haul]:
+        """Yield the results that wait for one that will not come, in order."""
+        for number in sorted(n for n in self.results if n >= self._next):
+            self._next = number + 1
+            yield self.results[number]
+
+    @property
+    def tried(self) -> int:
+        """Return how many cases were tried."""
+        return sum(result.tried for result in self.results.values())

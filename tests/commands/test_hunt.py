@@ -8,11 +8,16 @@ from click.testing import CliRunner
 
 from raycert.oracle.commands.certify import certify
 from raycert.oracle.commands.hunt import hunt
-from raycert.oracle.hunt.served import spec
+from shared.hunted_targets import spec
 
 
 def run(*words: str):
     return CliRunner().invoke(hunt, [*words])
+
+
+@pytest.fixture(autouse=True)
+def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[1]))
 
 
 @pytest.fixture

@@ -2,9 +2,9 @@
 
 import pytest
 
-from raycert.oracle.hunt.campaign import UNIT, form, line, longest, trial
 from raycert.oracle.hunt.search import Budget
 from raycert.oracle.zoo.inhabitants import BY_NAME
+from shared.hunt_campaign import UNIT, form, line, longest, trial
 
 QUICK = ("no-clip", "tolerant-disc", "small-disc", "expanded", "tangents-dropped", "overflow")
 

@@ -17,11 +17,11 @@ from pathlib import Path
 import pytest
 
 from raycert.oracle.client.inprocess import InProcess
-from raycert.oracle.hunt.executors import Here, Lost
-from raycert.oracle.hunt.ledger import Ledger
+from raycert.oracle.hunt.executors import Cluster, Here, Lost
 from raycert.oracle.hunt.search import Budget, hunt
-from raycert.oracle.hunt.served import spec
-from raycert.oracle.hunt.unit import Done, Job, Unit, Worst, work
+from raycert.oracle.hunt.unit import Haul, Job, Ledger, Unit, Worst
+from raycert.oracle.hunt.ways import work
+from shared.hunted_targets import spec
 
 pytest.importorskip("distributed", reason='needs pip install "raycert[cluster]"')
 pytestmark = pytest.mark.filterwarnings("default")  # those of Dask are its own
@@ -76,17 +76,15 @@ def cluster() -> Iterator[tuple[str, list[subprocess.Popen[str]]]]:
         process.stdout.close()
 
 
-def slow(folder: str, unit: Unit) -> Done:
+def slow(folder: str, unit: Unit) -> Haul:
     """Take a while, and leave a mark each time the unit is begun."""
     with open(Path(folder) / f"{unit.number}", "a") as file:
         file.write(f"{os.getpid()}\n")
     time.sleep(0.4)
-    return Done(unit.number, unit.cases, Worst(), ())
+    return Haul(unit.number, unit.cases, Worst(), ())
 
 
 def test_a_worker_that_dies_loses_nothing_and_nothing_counts_twice(cluster, tmp_path):
-    from raycert.oracle.hunt.cluster import Cluster
-
     address, workers = cluster
     executor, ledger = Cluster(partial(slow, str(tmp_path)), address), Ledger()
     units, killed = [Unit(number, 10 + number) for number in range(12)], False
@@ -109,8 +107,6 @@ def test_a_worker_that_dies_loses_nothing_and_nothing_counts_twice(cluster, tmp_
 
 
 def test_a_hunt_on_a_cluster_that_loses_a_worker_finds_what_it_finds_here(cluster):
-    from raycert.oracle.hunt.cluster import Cluster
-
     address, workers = cluster
     job = Job(InProcess("callable", spec("padded-radius")), golden=None)
     budget = Budget(cases=180, unit=60, most=2)
@@ -129,20 +125,18 @@ def test_a_hunt_on_a_cluster_that_loses_a_worker_finds_what_it_finds_here(cluste
 
 
 def test_a_cluster_that_is_not_there_is_said(monkeypatch):
-    from raycert.oracle.hunt import cluster
+    from raycert.oracle.hunt import executors
 
-    monkeypatch.setattr(cluster, "CONNECT", 0.5)
+    monkeypatch.setattr(executors, "CONNECT", 0.5)
     with pytest.raises(Lost, match=r"127\.0\.0\.1:9"):
-        cluster.Cluster(partial(slow, "."), "tcp://127.0.0.1:9")
+        executors.Cluster(partial(slow, "."), "tcp://127.0.0.1:9")
 
 
-def wrong(unit: Unit) -> Done:
+def wrong(unit: Unit) -> Haul:
     raise ValueError("a fault of ours")
 
 
 def test_a_fault_of_the_work_is_raised(cluster):
-    from raycert.oracle.hunt.cluster import Cluster
-
     executor = Cluster(wrong, cluster[0])
     executor.submit(Unit(0))
     with pytest.raises(ValueError, match="ours"):

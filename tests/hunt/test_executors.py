@@ -5,8 +5,7 @@ from functools import partial
 import pytest
 
 from raycert.oracle.hunt.executors import ATTEMPTS, Here, Lost, Processes
-from raycert.oracle.hunt.ledger import Ledger
-from raycert.oracle.hunt.unit import Unit
+from raycert.oracle.hunt.unit import Ledger, Unit
 from shared.hunted_work import deadly, deadly_once, easy, wrong
 
 

@@ -12,9 +12,10 @@ from raycert.oracle.client.process import Failure
 from raycert.oracle.hunt import keep
 from raycert.oracle.hunt.executors import Here
 from raycert.oracle.hunt.search import Budget, hunt
-from raycert.oracle.hunt.served import spec
-from raycert.oracle.hunt.unit import Job, work
+from raycert.oracle.hunt.unit import Job
+from raycert.oracle.hunt.ways import work
 from raycert.oracle.zoo.inhabitants import BY_NAME
+from shared.hunted_targets import spec
 
 
 def hunted(name, seed=0):
@@ -66,8 +67,8 @@ def test_another_hunt_leaves_the_rows_of_the_first(tmp_path):
 
 
 def test_every_outcome_can_be_told():
-    assert keep.said(Reply("", intervals=((0.0, inf),))) == [[0.0, "inf"]]
-    assert keep.said(Reply("", first=None)) is None
-    assert keep.said(Reply("", hit=False)) is False
-    assert keep.said(Reply("", error="no")) == {"error": "no"}
-    assert keep.said(Failure("hang", "silent")) == {"hang": "silent"}
+    assert keep.answer(Reply("", intervals=((0.0, inf),))) == [[0.0, "inf"]]
+    assert keep.answer(Reply("", first=None)) is None
+    assert keep.answer(Reply("", hit=False)) is False
+    assert keep.answer(Reply("", error="no")) == {"error": "no"}
+    assert keep.answer(Failure("hang", "silent")) == {"hang": "silent"}

@@ -1,11 +1,10 @@
 """Results are counted once, and given out in the order of their numbers."""
 
-from raycert.oracle.hunt.ledger import Ledger
-from raycert.oracle.hunt.unit import Done, Worst
+from raycert.oracle.hunt.unit import Haul, Ledger, Worst
 
 
 def done(number, tried=10):
-    return Done(number, tried, Worst(), ())
+    return Haul(number, tried, Worst(), ())
 
 
 def test_a_result_that_comes_twice_counts_once():

@@ -7,11 +7,12 @@ import pytest
 from raycert.cases.numbers import numbers
 from raycert.oracle.client.dialogue import Unusable
 from raycert.oracle.client.inprocess import InProcess
-from raycert.oracle.hunt.cause import UNREPEATED
 from raycert.oracle.hunt.executors import Here, Lost, Processes
+from raycert.oracle.hunt.look import UNREPEATED
 from raycert.oracle.hunt.search import Budget, hunt
-from raycert.oracle.hunt.served import spec
-from raycert.oracle.hunt.unit import Job, work
+from raycert.oracle.hunt.unit import Job
+from raycert.oracle.hunt.ways import work
+from shared.hunted_targets import spec
 
 SMALL = Budget(cases=360, unit=120, most=3)
 
@@ -26,7 +27,7 @@ def here(name, budget=SMALL, **options):
 
 
 def found(result):
-    return [(f.cause, f.probe, f.fault, f.first, f.before) for f in result.findings.values()]
+    return [(f.symptom, f.probe, f.flaw, f.first, f.before) for f in result.findings.values()]
 
 
 def test_the_same_seed_finds_the_same_here_and_in_processes():
@@ -92,7 +93,7 @@ def test_an_answer_that_depends_on_the_one_before_is_kept_with_it():
 def test_what_does_not_come_again_is_said_and_no_row():
     result = here("hundredth", Budget(cases=320, unit=320, most=3))
     [finding] = result.findings.values()
-    assert finding.cause.kind == UNREPEATED
+    assert finding.symptom.kind == UNREPEATED
     assert not finding.repeats
 
 

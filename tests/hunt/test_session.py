@@ -1,7 +1,6 @@
 """A session goes on after crashes and hangs, and pins each on its question."""
 
 import sys
-from pathlib import Path
 
 import pytest
 
@@ -15,42 +14,37 @@ from raycert.oracle.client.process import Failure
 from raycert.oracle.hunt.session import Clock, Session, TimeUp
 
 BALL = Sphere((0, 0, 0), 1)
-SCENES = [Probe(BALL, Ray((float(x), 0, 0), (1, 0, 0))) for x in (-3, 7, -2, 5, 7, -4)]
-
-
-@pytest.fixture
-def importable(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[1]))
+PROBES = [Probe(BALL, Ray((float(x), 0, 0), (1, 0, 0))) for x in (-3, 7, -2, 5, 7, -4)]
 
 
 def check(outcomes, kind):
     assert [isinstance(outcome, Failure) for outcome in outcomes] == [
-        s.ray.origin[0] == 7 for s in SCENES
+        s.ray.origin[0] == 7 for s in PROBES
     ]
     assert {outcome.kind for outcome in outcomes if isinstance(outcome, Failure)} == {kind}
     assert outcomes[0].intervals == ((2.0, 4.0),)
     assert outcomes[5].intervals == ((3.0, 5.0),)
 
 
-def test_a_crash_is_pinned_and_all_else_is_answered(importable):
+def test_a_crash_is_pinned_and_all_else_is_answered():
     session = Session(InProcess("callable", "shared.hunted_targets:crashing"), Limits())
-    check(session.ask(SCENES), "crash")
-    check(session.fresh(SCENES), "crash")
+    check(session.ask(PROBES), "crash")
+    check(session.fresh(PROBES), "crash")
     session.close()
 
 
-def test_a_hang_is_pinned_and_all_else_is_answered(importable):
+def test_a_hang_is_pinned_and_all_else_is_answered():
     session = Session(InProcess("callable", "shared.hunted_targets:hanging"), Limits(case=0.3))
-    check(session.ask(SCENES), "hang")
+    check(session.ask(PROBES), "hang")
     session.close()
 
 
 def test_a_program_is_asked_in_the_same_way():
     session = Session(Command((sys.executable, "-m", "raycert.reference")), Limits())
     assert session.hello.name
-    outcomes = session.ask(SCENES)
+    outcomes = session.ask(PROBES)
     assert all(isinstance(outcome, Reply) for outcome in outcomes)
-    assert outcomes == session.ask(SCENES)
+    assert outcomes == session.ask(PROBES)
     session.close()
 
 
@@ -59,7 +53,7 @@ def test_the_time_is_kept():
         InProcess("callable", "raycert.reference.tracer:intersect"), Limits(), Clock.of(-1)
     )
     with pytest.raises(TimeUp):
-        session.ask(SCENES)
+        session.ask(PROBES)
     session.close()
 
 

@@ -1,11 +1,10 @@
-"""The shrinker: simplest numbers, fewest parts, the same each time; a failing case at any time."""
+"""The shrinker: simplest numbers, fewest parts, the same each time; a suspect case at any time."""
 
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, Difference, HalfSpace, Ray, Sphere, Union, leaves
 from raycert.cases.numbers import Probe, numbers
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.hunt.shrink import Shrinker
-from raycert.oracle.hunt.simple import cost, number_cost
+from raycert.oracle.hunt.shrink import Shrinker, cost, number_cost
 
 FAR = Ray((0.1, -0.7, 12.3), (0.3, 0.21, -1.77))
 BALL = Sphere((0.7, -0.3, 1.9), 1.234)
@@ -45,7 +44,7 @@ def test_a_large_number_that_is_needed_becomes_a_power_of_two():
     assert best == TREE or max(map(abs, best.ray.origin)) == 2.0**20
 
 
-def test_a_shrink_that_is_broken_off_has_a_failing_case():
+def test_a_shrink_that_is_broken_off_has_a_suspect_case():
     for most in (1, 50, 500):
         best = shrunk(TREE, is_crossed, most)
         assert best == TREE or is_crossed(best)

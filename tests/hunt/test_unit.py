@@ -8,9 +8,10 @@ import pytest
 
 from raycert.cases.model import types
 from raycert.oracle.client.inprocess import InProcess
-from raycert.oracle.hunt.look import Asked
-from raycert.oracle.hunt.served import spec
-from raycert.oracle.hunt.unit import EACH, Job, Unit, coarse, work
+from raycert.oracle.hunt.look import Criterion
+from raycert.oracle.hunt.unit import EACH, Job, Unit, coarse
+from raycert.oracle.hunt.ways import work
+from shared.hunted_targets import spec
 
 FAULTY = Job(InProcess("callable", spec("padded-radius")), golden=None)
 SOUND = Job(InProcess("callable", "raycert.reference.tracer:intersect"))
@@ -29,7 +30,7 @@ def test_a_unit_done_again_gives_the_same(number):
 
 def test_each_coarse_cause_is_kept_a_few_times():
     failures = work(FAULTY, Unit(0, 400)).failures
-    keys = [coarse(failing) for failing in failures]
+    keys = [coarse(suspect) for suspect in failures]
     assert 1 < max(keys.count(key) for key in keys) <= EACH
 
 
@@ -46,7 +47,7 @@ def test_the_time_ends_a_unit(number):
 def test_only_what_is_wanted_is_asked(number):
     job = replace(FAULTY, solids=("sphere",))
     failures = work(job, Unit(number, 400)).failures
-    assert {kind for failing in failures for kind in types(failing.probe.solid)} == {"sphere"}
+    assert {kind for suspect in failures for kind in types(suspect.probe.solid)} == {"sphere"}
 
 
 def test_only_trees_without_a_leaf_is_nothing_to_ask():
@@ -56,7 +57,7 @@ def test_only_trees_without_a_leaf_is_nothing_to_ask():
 def test_the_range_is_asked_only_if_it_is_wanted():
     job = Job(InProcess("callable", spec("overflow")), golden=None)
     assert not work(job, Unit(0, 300)).failures
-    assert work(replace(job, asked=Asked(far=True)), Unit(0, 300)).failures
+    assert work(replace(job, criterion=Criterion(far=True)), Unit(0, 300)).failures
 
 
 def test_the_reference_is_stable_in_a_few():

@@ -1,8 +1,9 @@
 """The hunt tried on every planted fault of the zoo, with the golden rows withheld.
 
-    python -m raycert.oracle.hunt.campaign                     every fault, a minute each at most
-    python -m raycert.oracle.hunt.campaign no-clip diameter    these
-    python -m raycert.oracle.hunt.campaign --time 20 --json campaign.json
+    cd tests
+    python -m shared.hunt_campaign                     every fault, a minute each at most
+    python -m shared.hunt_campaign no-clip diameter    these
+    python -m shared.hunt_campaign --time 20 --json campaign.json
 
 A fault that is granted `stable` shows in no answer that the level can refuse: it is hunted for its
 convention, or in the range tier. A case counts only if the tracer that the fault was planted in has
@@ -25,14 +26,15 @@ from raycert.cases.protocol import Reply
 from raycert.oracle.client.inprocess import InProcess
 from raycert.oracle.hunt.executors import Here
 from raycert.oracle.hunt.keep import case
-from raycert.oracle.hunt.look import Asked, Looker
+from raycert.oracle.hunt.look import Criterion, Looker
 from raycert.oracle.hunt.search import Budget, Finding, hunt
-from raycert.oracle.hunt.served import spec
-from raycert.oracle.hunt.simple import cost
-from raycert.oracle.hunt.unit import Job, work
+from raycert.oracle.hunt.shrink import cost
+from raycert.oracle.hunt.unit import Job
+from raycert.oracle.hunt.ways import work
 from raycert.oracle.zoo.fault import Fault
 from raycert.oracle.zoo.inhabitants import BY_NAME, FAULTS
 from raycert.oracle.zoo.tracer import BASE
+from shared.hunted_targets import spec
 
 SMALL = 12
 UNIT = 400
@@ -50,7 +52,7 @@ class Trial:
 
     @property
     def is_small(self) -> bool:
-        """Tell whether the case found has short numbers only."""
+        """Whether the case found has short numbers only."""
         return self.finding is not None and longest(self.finding.probe) <= SMALL
 
 
@@ -67,8 +69,10 @@ def _bits(x: float) -> int:
 def trial(fault: Fault, budget: Budget, seed: int = 0) -> Trial:
     """Hunt for one fault until something is found or the budget is used up."""
     far = fault.home.startswith("range")
-    asked = Asked("stable", "closed" if fault.granted == "stable" and not far else None, far)
-    job = Job(InProcess("callable", spec(fault.name)), asked=asked, seed=seed, golden=None)
+    criterion = Criterion(
+        "stable", "closed" if fault.granted == "stable" and not far else None, far
+    )
+    job = Job(InProcess("callable", spec(fault.name)), criterion=criterion, seed=seed, golden=None)
     found = hunt(job, budget, Here(partial(work, job)))
     theirs = [finding for finding in found.findings.values() if is_theirs(finding, found.looker)]
     findings = sorted(theirs, key=lambda finding: cost(finding.probe))
@@ -76,9 +80,9 @@ def trial(fault: Fault, budget: Budget, seed: int = 0) -> Trial:
 
 
 def is_theirs(finding: Finding, looker: Looker) -> bool:
-    """Tell whether the tracer that the fault was planted in has the case right."""
+    """Whether the tracer that the fault was planted in has the case right."""
     base = Reply("", intervals=tuple(BASE(*finding.probe)))
-    return looker(finding.probe, base).fault is None
+    return looker(finding.probe, base).flaw is None
 
 
 def trials(faults: Sequence[Fault], budget: Budget, seed: int = 0) -> Iterator[Trial]:
@@ -113,14 +117,14 @@ def line(tried: Trial) -> str:
     head = f"{tried.fault.name:<22} {tried.seconds:5.1f} s {tried.tried:>6} cases"
     if finding is None:
         return f"{head}  NOT FOUND"
-    return f"{head}  {longest(finding.probe):>2} bits  {finding.fault.level} {finding.cause}"
+    return f"{head}  {longest(finding.probe):>2} bits  {finding.flaw.level} {finding.symptom}"
 
 
 def form(tried: Trial) -> dict[str, object]:
     """Return a trial as JSON."""
     finding = tried.finding
     found = finding and {
-        "cause": str(finding.cause),
+        "cause": str(finding.symptom),
         "seconds": finding.after,
         **case(finding.probe),
     }
