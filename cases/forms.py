@@ -11,11 +11,10 @@ from dataclasses import fields
 from typing import Any
 
 from raycert.cases.formats import BINARY64, Format, Spelling, parse, spell
-from raycert.cases.model import SOLIDS, Ray, Refused, Solid, real, type_of
+from raycert.cases.model import SOLIDS, VECTORS, Ray, Refused, Solid, real, type_of
 
 Json = dict[str, Any]
 DEEPEST = 200
-VECTORS = {"origin", "direction", "point", "normal", "center", "p", "q"}
 
 
 def write_ray(ray: Ray, spelling: Spelling = "decimal", fmt: Format = BINARY64) -> Json:

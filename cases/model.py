@@ -1,16 +1,33 @@
 """A ray and the solids it meets: frozen data that refuse what they cannot mean.
 
 What is refused is refused on construction, with `Refused`, which names the field by its path.
-Nothing here computes geometry.
+Any real number is taken where a number is: a float, an int or a `Fraction` (rounded to nearest), a
+scalar of NumPy or an array of no dimension; and a list, a tuple or an array of three where a vector
+is. Not a bool, a string, or a `Decimal`, which Python does not count among the real numbers. What
+is held is always a float, or a tuple of three.
+
+What a field of a leaf is, a place, a direction or a length, is its annotation; `SHAPES` and the
+functions of leaves below are read off it, so that a new leaf has them by being declared.
+Nothing else here computes geometry.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, fields, replace
+from numbers import Real
+from typing import Any, NamedTuple
+
+from raycert.cases.vectors import minus
 
 Vector = tuple[float, float, float]
+Point = Vector
+"""A field that is a place: it moves, turns and grows with the scene."""
+Direction = Vector
+"""A field that is a direction: it turns with the scene, and its length means nothing to a leaf."""
+Length = float
+"""A field that is a length, >= 0: it grows with the scene."""
 
 
 class Refused(ValueError):
@@ -34,9 +51,13 @@ def _shown(path: str) -> str:
 
 
 def real(value: object, path: str) -> float:
-    """Return `value` as a finite binary64, or refuse it. Integers round to nearest."""
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise Refused(path, f"is not a number: {value!r:.40}")
+    """Return `value` as a finite binary64, or refuse it. What is between two rounds to nearest."""
+    if type(value) is not float:
+        plain = getattr(value, "item", None)
+        if plain is not None and getattr(value, "shape", None) == ():  # NumPy's, of no dimension
+            value = plain()
+        if isinstance(value, bool) or not isinstance(value, Real):
+            raise Refused(path, f"is not a number: {value!r:.40}")
     try:
         number = float(value)
     except OverflowError:
@@ -49,114 +70,114 @@ def real(value: object, path: str) -> float:
 def vector(value: object, path: str) -> Vector:
     """Return `value` as three finite numbers, or refuse it."""
     if not isinstance(value, list | tuple):
-        raise Refused(path, f"is not a list of three numbers: {value!r:.40}")
+        if not getattr(value, "shape", None) or not isinstance(value, Iterable):
+            raise Refused(path, f"is not a list of three numbers: {value!r:.40}")
+        value = list(value)
     if len(value) != 3:
         raise Refused(path, f"has {len(value)} numbers, not three")
     x, y, z = (real(item, f"{path}[{i}]") for i, item in enumerate(value))
     return (x, y, z)
 
 
-def _radius(value: object) -> float:
-    number = real(value, "radius")
+def _length(value: object, path: str) -> float:
+    number = real(value, path)
     if number < 0:
-        raise Refused("radius", f"is negative: {number!r}")
+        raise Refused(path, f"is negative: {number!r}")
     return number
 
 
-def _set(target: object, **fields: object) -> None:
-    """Store checked fields in a frozen instance."""
-    for name, value in fields.items():
-        object.__setattr__(target, name, value)
+_READ: dict[str, Callable[[object, str], object]] = {
+    "Point": vector,
+    "Direction": vector,
+    "Length": _length,
+}
 
 
-def _axis(solid: Slab | InfiniteCylinder | Cylinder) -> None:
-    p, q = vector(solid.p, "p"), vector(solid.q, "q")
-    if p == q:
-        raise Refused("q", "is the same point as p: the axis has no direction")
-    _set(solid, p=p, q=q)
+def _check(target: Leaf | Ray, *apart: str) -> None:
+    """Store the fields as what they are declared to be, or refuse one; `apart` are two that differ.
+
+    An instance is frozen, so that its checked fields go past its own `__setattr__`.
+    """
+    for name, read in _READERS[type(target)]:
+        object.__setattr__(target, name, read(getattr(target, name), name))
+    if apart and getattr(target, apart[0]) == getattr(target, apart[1]):
+        raise Refused(apart[1], f"is the same point as {apart[0]}: the axis has no direction")
 
 
 @dataclass(frozen=True, slots=True)
 class Ray:
     """f(t) = origin + t * direction, t >= 0. The zero direction stays at its origin."""
 
-    origin: Vector
-    direction: Vector
+    origin: Point
+    direction: Direction
 
     def __post_init__(self) -> None:
         """Refuse what is not two vectors of finite numbers."""
-        _set(
-            self,
-            origin=vector(self.origin, "origin"),
-            direction=vector(self.direction, "direction"),
-        )
+        _check(self)
 
 
 @dataclass(frozen=True, slots=True)
 class HalfSpace:
     """(x - point) . normal <= 0, with the outward normal of any length but zero."""
 
-    point: Vector
-    normal: Vector
+    point: Point
+    normal: Direction
 
     def __post_init__(self) -> None:
         """Refuse a zero normal."""
-        point, normal = vector(self.point, "point"), vector(self.normal, "normal")
-        if normal == (0, 0, 0):
+        _check(self)
+        if not any(self.normal):
             raise Refused("normal", "is zero")
-        _set(self, point=point, normal=normal)
 
 
 @dataclass(frozen=True, slots=True)
 class Sphere:
     """|x - center| <= radius."""
 
-    center: Vector
-    radius: float
+    center: Point
+    radius: Length
 
     def __post_init__(self) -> None:
         """Refuse a negative radius."""
-        _set(self, center=vector(self.center, "center"), radius=_radius(self.radius))
+        _check(self)
 
 
 @dataclass(frozen=True, slots=True)
 class InfiniteCylinder:
     """Distance from the line through p and q <= radius."""
 
-    p: Vector
-    q: Vector
-    radius: float
+    p: Point
+    q: Point
+    radius: Length
 
     def __post_init__(self) -> None:
         """Refuse p = q and a negative radius."""
-        _axis(self)
-        _set(self, radius=_radius(self.radius))
+        _check(self, "p", "q")
 
 
 @dataclass(frozen=True, slots=True)
 class Slab:
     """Between the two planes through p and q square to pq."""
 
-    p: Vector
-    q: Vector
+    p: Point
+    q: Point
 
     def __post_init__(self) -> None:
         """Refuse p = q."""
-        _axis(self)
+        _check(self, "p", "q")
 
 
 @dataclass(frozen=True, slots=True)
 class Cylinder:
     """In the infinite cylinder and in the slab of the same p and q."""
 
-    p: Vector
-    q: Vector
-    radius: float
+    p: Point
+    q: Point
+    radius: Length
 
     def __post_init__(self) -> None:
         """Refuse p = q and a negative radius."""
-        _axis(self)
-        _set(self, radius=_radius(self.radius))
+        _check(self, "p", "q")
 
 
 def _parts(tree: Union | Intersection | Difference) -> None:
@@ -165,7 +186,7 @@ def _parts(tree: Union | Intersection | Difference) -> None:
     for i, part in enumerate(tree.of):
         if not isinstance(part, Solid):
             raise Refused(f"of[{i}]", f"is not a solid: {part!r:.40}")
-    _set(tree, of=tuple(tree.of))
+    object.__setattr__(tree, "of", tuple(tree.of))
 
 
 @dataclass(frozen=True, slots=True)
@@ -218,10 +239,83 @@ SOLIDS: dict[str, type[Solid]] = {
 TYPE_NAMES: dict[type[Solid], str] = {kind: name for name, kind in SOLIDS.items()}
 
 
+LEAVES: tuple[type[Leaf], ...] = Leaf.__args__
 FIELDS: dict[type[Leaf], tuple[str, ...]] = {
-    kind: tuple(field.name for field in fields(kind)) for kind in Leaf.__args__
+    kind: tuple(field.name for field in fields(kind)) for kind in LEAVES
 }
 """Of each type of leaf its fields in order, each a vector or a length."""
+
+
+class Shape(NamedTuple):
+    """What the fields of a type of leaf are, in the order of their declaration."""
+
+    points: tuple[str, ...]
+    directions: tuple[str, ...]
+    lengths: tuple[str, ...]
+
+    @classmethod
+    def of(cls, kind: type[Leaf]) -> Shape:
+        """Read the annotations of a type."""
+        named = [(field.name, field.type) for field in fields(kind)]
+        return cls(*(tuple(n for n, sort in named if sort == each) for each in _READ))
+
+
+SHAPES: dict[type[Leaf], Shape] = {kind: Shape.of(kind) for kind in LEAVES}
+VECTORS = frozenset(
+    field.name for kind in (Ray, *LEAVES) for field in fields(kind) if field.type != "Length"
+)
+"""The fields of rays and leaves that are three numbers."""
+_READERS = {
+    kind: [(field.name, _READ[str(field.type)]) for field in fields(kind)]
+    for kind in (Ray, *LEAVES)
+}
+
+
+def points(leaf: Leaf) -> tuple[Point, ...]:
+    """Return the places by which a leaf is given; the first is where it stands."""
+    return tuple([getattr(leaf, name) for name in SHAPES[type(leaf)].points])
+
+
+def radius(leaf: Leaf, otherwise: float = 0.0) -> float:
+    """Return the radius of a leaf; `otherwise` for one that has none."""
+    names = SHAPES[type(leaf)].lengths
+    return getattr(leaf, names[0]) if names else otherwise
+
+
+def lengths(leaf: Leaf) -> list[float]:
+    """Return the numbers of a leaf that grow with the scene: of its places, then its lengths."""
+    shape = SHAPES[type(leaf)]
+    numbers = [x for name in shape.points for x in getattr(leaf, name)]
+    return numbers + [getattr(leaf, name) for name in shape.lengths]
+
+
+def axis(leaf: Leaf) -> Vector | None:
+    """Return the direction that a leaf has, q - p or its normal, in doubles; None if it has none.
+
+    >>> axis(Cylinder((0, 0, 1), (0, 0, 3), 1)), axis(Sphere((0, 0, 0), 1))
+    ((0.0, 0.0, 2.0), None)
+    """
+    directions, ends = SHAPES[type(leaf)].directions, points(leaf)
+    if directions:
+        own: Vector = getattr(leaf, directions[0])
+        return own
+    return minus(ends[1], ends[0]) if len(ends) > 1 else None
+
+
+def remade(
+    leaf: Leaf,
+    point: Callable[[Point], Sequence[float]],
+    length: Callable[[Length], float],
+    direction: Callable[[Direction], Sequence[float]] = lambda direction: direction,
+) -> Leaf:
+    """Return a leaf with its places, lengths and directions changed; refuses what is then none."""
+    changes: tuple[Callable[[Any], Any], ...] = (point, direction, length)
+    changed = {
+        name: change(getattr(leaf, name))
+        for names, change in zip(SHAPES[type(leaf)], changes, strict=True)
+        for name in names
+    }
+    return replace(leaf, **changed)
 
 
 def type_of(solid: Solid) -> str:

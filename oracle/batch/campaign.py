@@ -18,10 +18,9 @@ import numpy as np
 
 from raycert.cases.corpus import read_corpus
 from raycert.cases.formats import BINARY32, FORMATS, Format
-from raycert.cases.model import HalfSpace, Ray, Refused, Solid, leaves
+from raycert.cases.model import HalfSpace, Ray, Refused, Solid, leaves, lengths
 from raycert.oracle.batch.lanes import Floats
 from raycert.oracle.batch.trace import Batch, scalar, trace_batch
-from raycert.oracle.exact.grid import lengths
 
 LARGEST = 2.0**1000
 """Numbers are drawn again that a step takes beyond it."""

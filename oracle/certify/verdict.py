@@ -11,11 +11,10 @@ from dataclasses import dataclass
 from math import frexp
 
 from raycert.cases.levels import LEVELS, Level, upto
-from raycert.cases.model import leaves, type_of
+from raycert.cases.model import leaves, lengths, type_of
 from raycert.cases.protocol import TOUCHES, convention
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import Grade, usual
-from raycert.oracle.exact.grid import lengths
 
 
 @dataclass(frozen=True, slots=True)

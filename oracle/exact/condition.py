@@ -34,8 +34,9 @@ from raycert.cases.model import (
     Sphere,
     leaves,
 )
+from raycert.cases.vectors import dot, minus
 from raycert.oracle.exact.faces import on_faces
-from raycert.oracle.exact.grid import Grid, IntVector, dot, normal, sub
+from raycert.oracle.exact.grid import Grid, IntVector, normal
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.rounding import exponent
 from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, fraction, sign_1
@@ -119,7 +120,7 @@ class At:
 
     def from_point(self, x: IntVector) -> Elements:
         """Return z (f(t) - x)."""
-        a, b, c = sub(self.grid.u, x)
+        a, b, c = minus(self.grid.u, x)
         v = self.grid.v
         return (
             self.constant(a * self.z) + self.top * v[0],
@@ -149,7 +150,7 @@ def _wall(leaf: InfiniteCylinder | Cylinder, at: At) -> Surd:
     """Return kappa on the infinite cylinder; everything halved and times z^2."""
     grid, z = at.grid, at.z
     p, q, r = grid.point(leaf.p), grid.point(leaf.q), grid.scalar(leaf.radius)
-    w = sub(q, p)
+    w = minus(q, p)
     square = dot(w, w)
     x = at.from_point(p)
     axial = inner(x, w)
@@ -191,7 +192,7 @@ def _half_space(leaf: HalfSpace, at: At) -> Surd:
 
 def _cap(leaf: Slab | Cylinder, at: At, base: IntVector, far: IntVector) -> Surd:
     """Return kappa on the cap through `base`: F = (f(t) - base).(far - base)."""
-    n = sub(far, base)
+    n = minus(far, base)
     x = at.from_point(base)
     back = tuple(-(e + at.constant(m * at.z)) for e, m in zip(x, n, strict=True))
     return _plane(at, n, iter((*_products(far, x), *_products(base, (back[0], back[1], back[2])))))

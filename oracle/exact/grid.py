@@ -10,25 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from raycert.cases.model import HalfSpace, Leaf, Ray, Slab, Solid, Sphere, Vector, leaves
+from raycert.cases.model import Ray, Solid, Vector, leaves, lengths
 from raycert.oracle.exact.surd import Surd
 
 IntVector = tuple[int, int, int]
-
-
-def dot(a: IntVector, b: IntVector) -> int:
-    """Return a . b."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a: IntVector, b: IntVector) -> IntVector:
-    """Return a x b."""
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def sub(a: IntVector, b: IntVector) -> IntVector:
-    """Return a - b."""
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def dyadics(numbers: Iterable[float], refine: int = 0) -> tuple[int, dict[float, int]]:
@@ -42,18 +27,6 @@ def dyadics(numbers: Iterable[float], refine: int = 0) -> tuple[int, dict[float,
     ratios = {x: x.as_integer_ratio() for x in numbers}
     bits = max([ratio[1] for ratio in ratios.values()]).bit_length() + refine
     return bits - 1, {x: n << bits - d.bit_length() for x, (n, d) in ratios.items()}
-
-
-def lengths(leaf: Leaf) -> tuple[float, ...]:
-    """Return the numbers of a leaf that are lengths; a half-space's normal is none."""
-    match leaf:
-        case HalfSpace():
-            return leaf.point
-        case Sphere():
-            return (*leaf.center, leaf.radius)
-        case Slab():
-            return (*leaf.p, *leaf.q)
-    return (*leaf.p, *leaf.q, leaf.radius)
 
 
 class Grid(NamedTuple):

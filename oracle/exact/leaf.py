@@ -17,7 +17,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Slab, Sphere
-from raycert.oracle.exact.grid import Grid, IntVector, cross, dot, normal, sub
+from raycert.cases.vectors import cross, dot, minus
+from raycert.oracle.exact.grid import Grid, IntVector, normal
 from raycert.oracle.exact.surd import Surd, sign
 
 
@@ -61,7 +62,7 @@ class Quadric(NamedTuple):
 def half_space(solid: HalfSpace, grid: Grid) -> Plane:
     """Return the condition of a half-space."""
     n = normal(solid.normal)
-    return Plane(dot(sub(grid.u, grid.point(solid.point)), n), dot(grid.v, n), dot(n, n))
+    return Plane(dot(minus(grid.u, grid.point(solid.point)), n), dot(grid.v, n), dot(n, n))
 
 
 def caps(solid: Slab | Cylinder, grid: Grid) -> tuple[Plane, Plane]:
@@ -85,7 +86,7 @@ def capped(solid: Cylinder, grid: Grid) -> tuple[Quadric, Plane, Plane]:
 
 def _axis(solid: Slab | InfiniteCylinder | Cylinder, grid: Grid) -> tuple[IntVector, IntVector]:
     p = grid.point(solid.p)
-    return sub(grid.u, p), sub(grid.point(solid.q), p)
+    return minus(grid.u, p), minus(grid.point(solid.q), p)
 
 
 def _caps(y: IntVector, w: IntVector, square: int, grid: Grid) -> tuple[Plane, Plane]:
@@ -101,7 +102,7 @@ def _wall(y: IntVector, w: IntVector, square: int, r: int, grid: Grid) -> Quadri
 
 def ball(solid: Sphere, grid: Grid) -> Quadric:
     """Return the condition of a sphere."""
-    m, r = sub(grid.u, grid.point(solid.center)), grid.scalar(solid.radius)
+    m, r = minus(grid.u, grid.point(solid.center)), grid.scalar(solid.radius)
     return Quadric(dot(grid.v, grid.v), dot(m, grid.v), dot(m, m) - r * r, 1)
 
 

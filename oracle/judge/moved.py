@@ -38,7 +38,8 @@ from raycert.cases.model import (
     Tree,
     leaves,
 )
-from raycert.oracle.exact.grid import Grid, IntVector, dot, sub
+from raycert.cases.vectors import dot, minus
+from raycert.oracle.exact.grid import Grid, IntVector
 from raycert.oracle.exact.intervals import EVERYTHING, NOTHING, Intervals, clip, intersection
 from raycert.oracle.exact.leaf import Plane, Quadric, ball, caps, half_space, wall
 from raycert.oracle.exact.surd import INFINITY, ZERO, sign_1
@@ -107,12 +108,12 @@ def size(leaf: Leaf, grid: Grid) -> tuple[int, int]:
     match leaf:
         case HalfSpace():
             point = grid.point(leaf.point)
-            return norm(u) + norm(point) + norm(sub(u, point)), 2 * speed
+            return norm(u) + norm(point) + norm(minus(u, point)), 2 * speed
         case Sphere():
             return norm(u) + norm(grid.point(leaf.center)) + grid.scalar(leaf.radius), speed
     p, q = grid.point(leaf.p), grid.point(leaf.q)
     radius = 0 if isinstance(leaf, Slab) else grid.scalar(leaf.radius)
-    return norm(u) + norm(p) + norm(q) + radius + norm(sub(u, p)), 2 * speed
+    return norm(u) + norm(p) + norm(q) + radius + norm(minus(u, p)), 2 * speed
 
 
 def thinness(leaf: Leaf, grid: Grid) -> int:
@@ -122,7 +123,7 @@ def thinness(leaf: Leaf, grid: Grid) -> int:
             return 0
         case Sphere() | InfiniteCylinder():
             return grid.scalar(leaf.radius)
-    thickness = norm(sub(grid.point(leaf.q), grid.point(leaf.p)))
+    thickness = norm(minus(grid.point(leaf.q), grid.point(leaf.p)))
     return thickness if isinstance(leaf, Slab) else min(thickness, grid.scalar(leaf.radius))
 
 

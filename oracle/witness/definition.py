@@ -24,7 +24,8 @@ from raycert.cases.model import (
     Sphere,
     leaves,
 )
-from raycert.oracle.exact.grid import Grid, IntVector, dot, normal, sub
+from raycert.cases.vectors import dot, minus
+from raycert.oracle.exact.grid import Grid, IntVector, normal
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, fraction, sign_1
 from raycert.oracle.witness.cells import combine, runs
@@ -113,14 +114,14 @@ def _faces(leaf: Leaf, grid: Grid) -> Iterator[tuple[int, int, int]]:
     match leaf:
         case HalfSpace():
             n = normal(leaf.normal)
-            yield 0, dot(v, n), dot(sub(grid.u, grid.point(leaf.point)), n)
+            yield 0, dot(v, n), dot(minus(grid.u, grid.point(leaf.point)), n)
             return
         case Sphere():
-            y, r = sub(grid.u, grid.point(leaf.center)), grid.scalar(leaf.radius)
+            y, r = minus(grid.u, grid.point(leaf.center)), grid.scalar(leaf.radius)
             yield dot(v, v), 2 * dot(v, y), dot(y, y) - r * r
             return
     p = grid.point(leaf.p)
-    w, y = sub(grid.point(leaf.q), p), sub(grid.u, p)
+    w, y = minus(grid.point(leaf.q), p), minus(grid.u, p)
     vw, yw, ww = dot(v, w), dot(y, w), dot(w, w)
     if isinstance(leaf, Slab | Cylinder):
         yield 0, vw, yw
@@ -142,7 +143,7 @@ def _definition(leaf: Leaf, grid: Grid) -> Inside:
         case Sphere():
             return _in_sphere(grid, grid.point(leaf.center), grid.scalar(leaf.radius))
     p = grid.point(leaf.p)
-    w = sub(grid.point(leaf.q), p)
+    w = minus(grid.point(leaf.q), p)
     if isinstance(leaf, Slab):
         return _in_slab(grid, p, w)
     within = _in_rod(grid, p, w, grid.scalar(leaf.radius))
@@ -195,7 +196,7 @@ def _in_rod(grid: Grid, p: IntVector, w: IntVector, r: int) -> Inside:
 
 def _from(grid: Grid, point: IntVector, t: Surd) -> tuple[IntVector, IntVector]:
     """Return z (f(t) - point) as a vector of numbers: its rational and its irrational part."""
-    (a, b, c), (i, j, k) = sub(grid.u, point), grid.v
+    (a, b, c), (i, j, k) = minus(grid.u, point), grid.v
     x, y, z = t.x, t.y, t.z
     return (a * z + i * x, b * z + j * x, c * z + k * x), (i * y, j * y, k * y)
 

@@ -47,7 +47,8 @@ from raycert.cases.model import (
     Vector,
 )
 from raycert.cases.strategies import ensembles, scenes
-from raycert.oracle.exact.grid import Grid, IntVector, cross
+from raycert.cases.vectors import cross
+from raycert.oracle.exact.grid import Grid, IntVector
 from raycert.oracle.exact.intervals import (
     Intervals,
     contains,
