@@ -1,6 +1,6 @@
-"""Scenes before they are made: picks from what a scene shares, resolved to solids and a ray.
+"""Hard numbers, and scenes made of picks from them: the pool of `draw` and of `strategies`.
 
-A recipe is plain data without constraints, so that `cases.strategies` can draw and shrink each part
+A recipe is plain data without constraints, so that whoever draws it can draw and shrink each part
 by itself. Here parts meet: leaves take points, axes and radii from one pool, and the ray is aimed
 in a frame of a leaf. Whatever the format has room for is exact; the rest is rounded to it.
 """
@@ -9,28 +9,56 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from math import frexp, hypot, ldexp
+from math import frexp, ldexp, sqrt
+from typing import Any
 
 from raycert.cases.formats import BINARY64, Format
 from raycert.cases.model import (
-    Cylinder,
-    Difference,
+    SOLIDS,
     HalfSpace,
-    InfiniteCylinder,
-    Intersection,
     Leaf,
     Ray,
     Slab,
     Solid,
     Sphere,
-    Union,
+    Tree,
     Vector,
     leaves,
 )
+from raycert.cases.vectors import cross, dot
 
+TREES = tuple(name for name, kind in SOLIDS.items() if issubclass(kind, Tree))
+LEAVES = tuple(name for name in SOLIDS if name not in TREES)
 Axis = tuple[Vector, Vector]
 """A point and a direction other than 0."""
 UNITS: tuple[Vector, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+STILL: Vector = (0.0, 0.0, 0.0)
+LENGTHS = (1.0, -1.0, 2.0, 4.0, -0.5)
+DIRECTIONS: tuple[Vector, ...] = (
+    *((x, 0.0, 0.0) for x in LENGTHS),
+    *((0.0, x, 0.0) for x in LENGTHS),
+    *((0.0, 0.0, x) for x in LENGTHS),
+    *((3.0, 4.0, 0.0), (0.0, -4.0, 3.0), (4.0, 0.0, -3.0), (1.0, -2.0, 2.0)),
+    *((1.0, 1.0, 0.0), (0.0, 1.0, -1.0), (1.0, 0.0, 2.0), (1.0, 1.0, 1.0)),
+)
+"""Along the axes, of whole length, and simple."""
+RADII = (1.0, 2.0, 1.0, 0.5, 0.0, 5.0, 1.0, 3.0)
+ALONG = (0.5, 1.0, 0.0, -1.0, 2.0)
+AWAY = (1.0, 1.0, 0.0, -1.0, 1.0, 0.5)
+"""Where on a leaf a ray aims, in units of the leaf: along its axis, and away from it."""
+TURNS: tuple[Vector, ...] = (
+    *((1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (-1.0, 1.0, 0.0), (1.0, 0.0, 1.0), (1.0, -1.0, 2.0)),
+    *((0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (0.0, 0.0, 2.0), (0.0, 1.0, 1.0), (0.0, -1.0, 2.0)),
+    *((0.0, 1.0, 0.0), (0.0, -1.0, 0.0)),
+)
+"""How a ray runs there: away from the axis, along it, around it."""
+BACK = (2.0, 4.0, 0.0, 8.0, 1.0, 0.5, -1.0)
+SPEEDS = (1.0, 1.0, 1.0, 2.0, 0.5, 8.0, 0.125)
+NESTED = ((2.0, 1.0), (5.0, 3.0), (3.0, 0.5), (1.0, 0), (0, 1), (1, 1), (1.0, 2.0))
+"""Radii about one axis or center; whole numbers are picks."""
+PICKS = (0, 0, 0, 0, 1, 1, 2, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11)
+MOVED = (*[None] * 84, *((i, up) for i in range(6) for up in (True, False)))
+"""Which number of a ray is replaced by a neighbour, above or below: in one case of eight, one."""
 
 
 def neighbour(number: float, up: bool, fmt: Format = BINARY64) -> float:
@@ -125,10 +153,9 @@ class Aim:
     """A ray.
 
     It passes through a `spot` of a leaf, and runs by `turn` in a frame of the leaf: away from the
-    axis, along it, around it; or on to the spot `toward`, of a leaf
-    counted from the next one. It starts `back` from there, in units of
-    its direction. A `free` one is a start and a direction instead. `moved` says which of its six
-    numbers is replaced by a neighbour, above or below.
+    axis, along it, around it; or on to the spot `toward`, of a leaf counted from the next one. It
+    starts `back` from there, in units of its direction. A `free` one is a start and a direction
+    instead. `moved` says which of its six numbers is replaced by a neighbour, above or below.
     """
 
     spot: Spot
@@ -149,31 +176,26 @@ def alike(leaf: LeafRecipe, pick: int, radii: tuple[int | float, int | float]) -
 
 def make_leaf(recipe: LeafRecipe, pool: Pool) -> Leaf:
     """Return the leaf of a recipe."""
-    p, w = pool.axis(recipe.axis)
-    if recipe.kind == "half_space":
-        return HalfSpace(p, w)
-    if recipe.kind == "sphere":
+    make: Any = SOLIDS[recipe.kind]
+    if make is Sphere:
         return Sphere(pool.point(recipe.point), pool.radius(recipe.radius))
+    p, w = pool.axis(recipe.axis)
+    if make is HalfSpace:
+        return HalfSpace(p, w)
     q = _sum(pool.fmt, (1, p), (1, w))
     if q == p:  # w was lost in rounding
         q = _sum(pool.fmt, (1, p), (1, UNITS[2]))
-    if recipe.kind == "slab":
-        return Slab(p, q)
-    kind = InfiniteCylinder if recipe.kind == "infinite_cylinder" else Cylinder
-    return kind(p, q, pool.radius(recipe.radius))
+    leaf: Leaf = make(p, q) if make is Slab else make(p, q, pool.radius(recipe.radius))
+    return leaf
 
 
 def make_solid(recipe: Recipe, pool: Pool) -> Solid:
     """Return the leaf or the tree of a recipe."""
     if isinstance(recipe, LeafRecipe):
         return make_leaf(recipe, pool)
-    parts = tuple(make_solid(part, pool) for part in recipe.of)
-    match recipe.kind:
-        case "union":
-            return Union(parts)
-        case "intersection":
-            return Intersection(parts)
-    return Difference(parts)
+    make: Any = SOLIDS[recipe.kind]
+    tree: Solid = make(tuple(make_solid(part, pool) for part in recipe.of))
+    return tree
 
 
 def make_ray(solids: Iterable[Solid], aim: Aim, pool: Pool) -> Ray:
@@ -201,11 +223,9 @@ def _aimed(every: list[Leaf], spot: Spot, turn: Vector, fmt: Format) -> tuple[Ve
     leaf = every[spot.leaf % len(every)]
     place, w, reach, radius = _frame(leaf, spot.frame, fmt)
     e = _across(w, spot.frame // len(UNITS))
-    around = (w[1] * e[2] - w[2] * e[1], w[2] * e[0] - w[0] * e[2], w[0] * e[1] - w[1] * e[0])
-    out = spot.away * radius
-    aside = (out * e[0] / hypot(*e), out * e[1] / hypot(*e), out * e[2] / hypot(*e))
-    target = _sum(fmt, (1, place), (spot.along * reach, w), (1, aside))
-    return target, _sum(fmt, (turn[0], e), (turn[1], w), (turn[2], around))
+    away = spot.away * radius / sqrt(dot(e, e))
+    target = _sum(fmt, (1, place), (spot.along * reach, w), (away, e))
+    return target, _sum(fmt, (turn[0], e), (turn[1], w), (turn[2], cross(w, e)))
 
 
 def _frame(leaf: Leaf, frame: int, fmt: Format) -> tuple[Vector, Vector, float, float]:
@@ -226,16 +246,18 @@ def _across(w: Vector, turn: int) -> Vector:
     [(1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (3.0, 4.0, 0.0)]
     """
     a, b, c = w
-    found = [unit for unit, x in zip(UNITS, w, strict=True) if not x]
-    if len(found) == 2:
-        (d, e, f), (g, h, i) = found
-        found += [*found, (3 * d + 4 * g, 3 * e + 4 * h, 3 * f + 4 * i)]
+    square = [unit for unit, x in zip(UNITS, w, strict=True) if not x]
+    if len(square) == 2:
+        (d, e, f), (g, h, i) = square
+        square += [*square, (3 * d + 4 * g, 3 * e + 4 * h, 3 * f + 4 * i)]
     else:
-        found += [v for v in ((b, -a, 0.0), (0.0, c, -b)) if any(v)]
-    return found[turn % len(found)]
+        square += [v for v in ((b, -a, 0.0), (0.0, c, -b)) if any(v)]
+    return square[turn % len(square)]
 
 
 def _sum(fmt: Format, *terms: tuple[float, Vector]) -> Vector:
     """Return a sum of multiples of vectors, in numbers of the format."""
-    x, y, z = (fmt.nearest(sum(factor * v[i] for factor, v in terms)) for i in range(3))
-    return (x, y, z)
+    x = y = z = 0.0
+    for factor, v in terms:  # `sum` rounds in another way from Python 3.12 on
+        x, y, z = x + factor * v[0], y + factor * v[1], z + factor * v[2]
+    return (fmt.nearest(x), fmt.nearest(y), fmt.nearest(z))

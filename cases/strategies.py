@@ -1,6 +1,6 @@
 """Hypothesis strategies for rays and solids: for the tests of any tracer, this project's and yours.
 
-They need the extra `test`: pip install "raycert[test]".
+They need the extra `hunt`: pip install "raycert[hunt]".
 
     numbers(fmt)  vectors(fmt)    coordinates
     leaves(kinds)                 half-spaces, spheres, slabs, cylinders
@@ -36,8 +36,21 @@ from math import ldexp
 from typing import Any, TypeVar
 
 from raycert.cases.formats import BINARY64, Format
-from raycert.cases.model import SOLIDS, Leaf, Ray, Solid, Tree, Vector
+from raycert.cases.model import Leaf, Ray, Solid, Vector
 from raycert.cases.recipes import (
+    ALONG,
+    AWAY,
+    BACK,
+    DIRECTIONS,
+    LEAVES,
+    MOVED,
+    NESTED,
+    PICKS,
+    RADII,
+    SPEEDS,
+    STILL,
+    TREES,
+    TURNS,
     UNITS,
     Aim,
     Axis,
@@ -57,44 +70,18 @@ try:
     from hypothesis import strategies as st
 except ImportError:
     raise ImportError(
-        'raycert.cases.strategies needs Hypothesis: pip install "raycert[test]"', name="hypothesis"
+        'raycert.cases.strategies needs Hypothesis: pip install "raycert[hunt]"', name="hypothesis"
     ) from None
 
 T = TypeVar("T")
 Ensemble = tuple[tuple[Solid, ...], Ray]
 
-TREES = tuple(name for name, kind in SOLIDS.items() if issubclass(kind, Tree))
-LEAVES = tuple(name for name in SOLIDS if name not in TREES)
 KINDS = LEAVES + TREES
 WEIGHTS = dict(zip(LEAVES, (1, 2, 2, 1, 3), strict=True))
 
 REACH = 10
 """Powers of two lie between 2^-REACH and 2^REACH; other coordinates are drawn from [-8, 8]."""
-LENGTHS = (1.0, -1.0, 2.0, 4.0, -0.5)
-DIRECTIONS: tuple[Vector, ...] = (
-    *((x, 0.0, 0.0) for x in LENGTHS),
-    *((0.0, x, 0.0) for x in LENGTHS),
-    *((0.0, 0.0, x) for x in LENGTHS),
-    *((3.0, 4.0, 0.0), (0.0, -4.0, 3.0), (4.0, 0.0, -3.0), (1.0, -2.0, 2.0)),
-    *((1.0, 1.0, 0.0), (0.0, 1.0, -1.0), (1.0, 0.0, 2.0), (1.0, 1.0, 1.0)),
-)
-"""Along the axes, of whole length, and simple."""
-RADII = (1.0, 2.0, 1.0, 0.5, 0.0, 5.0, 1.0, 3.0)
-ALONG = (0.5, 1.0, 0.0, -1.0, 2.0)
-AWAY = (1.0, 1.0, 0.0, -1.0, 1.0, 0.5)
-"""Where on a leaf a ray aims, in units of the leaf: along its axis, and away from it."""
-TURNS: tuple[Vector, ...] = (
-    *((1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (-1.0, 1.0, 0.0), (1.0, 0.0, 1.0), (1.0, -1.0, 2.0)),
-    *((0.0, 0.0, 1.0), (0.0, 0.0, -1.0), (0.0, 0.0, 2.0), (0.0, 1.0, 1.0), (0.0, -1.0, 2.0)),
-    *((0.0, 1.0, 0.0), (0.0, -1.0, 0.0)),
-)
-"""How a ray runs there: away from the axis, along it, around it."""
-BACK = (2.0, 4.0, 0.0, 8.0, 1.0, 0.5, -1.0)
-SPEEDS = (1.0, 1.0, 1.0, 2.0, 0.5, 8.0, 0.125)
-NESTED = ((2.0, 1.0), (5.0, 3.0), (3.0, 0.5), (1.0, 0), (0, 1), (1, 1), (1.0, 2.0))
-"""Radii about one axis or center; whole numbers are picks."""
-PICKS = (0, 0, 0, 0, 1, 1, 2, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11)
-MOVED = (*[None] * 84, *((i, up) for i in range(6) for up in (True, False)))
+STANDING = st.just(STILL)
 WHOLE = st.integers(-4, 4).map(float)
 
 
@@ -132,7 +119,7 @@ def scenes(
     max_leaves: int = 6, kinds: Iterable[str] = KINDS, fmt: Format = BINARY64
 ) -> st.SearchStrategy[tuple[Solid, Ray]]:
     """Return (solid, ray), the ray mostly aimed at a leaf of the solid."""
-    return ensembles(1, max_leaves, kinds, fmt).map(lambda found: (found[0][0], found[1]))
+    return ensembles(1, max_leaves, kinds, fmt).map(lambda drawn: (drawn[0][0], drawn[1]))
 
 
 def ensembles(
@@ -151,14 +138,11 @@ def ensembles(
 def rays(solid: Solid | None = None, fmt: Format = BINARY64) -> st.SearchStrategy[Ray]:
     """Return rays, mostly aimed at where a leaf of the solid is hard; without one, at nothing."""
     if solid is None:
-        directions = _styled(fmt, lambda style: _mixed((9, _directions(style)), (1, STILL)))
+        directions = _styled(fmt, lambda style: _mixed((9, _directions(style)), (1, STANDING)))
         return st.builds(Ray, vectors(fmt), directions)
     return _styled(
         fmt, lambda style: st.builds(make_ray, st.just((solid,)), _aims(style), _pools(style))
     )
-
-
-STILL: st.SearchStrategy[Vector] = st.just((0.0, 0.0, 0.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -241,19 +225,12 @@ def _leaves(kinds: tuple[str, ...], style: _Style) -> st.SearchStrategy[LeafReci
         "radius": pick | _radii(style),
     }
     needs = {"sphere": ("point", "radius"), "half_space": ("axis",), "slab": ("axis",)}
-    return _mixed(
-        *(
-            (
-                WEIGHTS[kind],
-                st.builds(
-                    LeafRecipe,
-                    st.just(kind),
-                    **{name: fields[name] for name in needs.get(kind, ("axis", "radius"))},
-                ),
-            )
-            for kind in kinds
-        )
-    )
+
+    def leaf(kind: str) -> st.SearchStrategy[LeafRecipe]:
+        needed = {name: fields[name] for name in needs.get(kind, ("axis", "radius"))}
+        return st.builds(LeafRecipe, st.just(kind), **needed)
+
+    return _mixed(*((WEIGHTS[kind], leaf(kind)) for kind in kinds))
 
 
 @cache
@@ -282,7 +259,7 @@ def _trees(
 def _aims(style: _Style) -> st.SearchStrategy[Aim]:
     index = st.integers(0, 11)
     spots = st.builds(Spot, index, index, st.sampled_from(ALONG), st.sampled_from(AWAY))
-    free = st.tuples(index | _coordinates(style), _mixed((4, _directions(style)), (1, STILL)))
+    free = st.tuples(index | _coordinates(style), _mixed((4, _directions(style)), (1, STANDING)))
     return st.builds(
         Aim,
         spot=spots,

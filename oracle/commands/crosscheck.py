@@ -90,7 +90,7 @@ def _questions(options: dict[str, Any]) -> list[Question]:
     if options["lines"]:
         return [_read(line, f"json-{i}") for i, line in enumerate(options["lines"], 1)]
     if options["fresh"]:
-        from raycert.cases.sample import fresh
+        from raycert.cases.draw import fresh
 
         cases = fresh(options["fresh"], options["seed"])
         return [Question(f"fresh/{case.slug}", case.solid, case.ray) for case in cases]

@@ -13,12 +13,10 @@ from dataclasses import dataclass, replace
 from itertools import islice
 
 from raycert.cases.case import Case, Family
+from raycert.cases.draw import jittered, sampled
 from raycert.cases.formats import Format
-from raycert.cases.forms import read_ray, read_solid, write_ray, write_solid
-from raycert.cases.jitter import jittered
-from raycert.cases.model import SOLIDS, Refused, Tree, types
+from raycert.cases.model import SOLIDS, Tree, types
 from raycert.cases.row import GoldenRow
-from raycert.cases.sample import case as sampled
 from raycert.oracle.corpus.golden import USUAL, golden_row
 
 COUNT = 500
@@ -62,18 +60,8 @@ def fresh_cases(seed: int, fmt: Format, solids: Collection[str]) -> Iterator[Cas
     """Yield cases without end, all of whose solids are among these."""
     declared, number = set(solids), 0
     while True:
-        for case in (_scene(seed, number, fmt), jittered(seed, number, fmt)):
-            if case is not None and types(case.solid) <= declared:
+        scene = replace(sampled(number, seed, fmt), slug=f"scene-{number}")
+        for case in (scene, jittered(seed, number, fmt)):
+            if types(case.solid) <= declared:
                 yield case
         number += 1
-
-
-def _scene(seed: int, number: int, fmt: Format) -> Case | None:
-    """Return a scene of the sample in numbers of the format; None where that makes it no solid."""
-    case = sampled(number, seed)
-    try:
-        solid = read_solid(write_solid(case.solid), fmt=fmt)
-        ray = read_ray(write_ray(case.ray), fmt=fmt)
-    except Refused:
-        return None
-    return replace(case, slug=f"scene-{number}", solid=solid, ray=ray)

@@ -28,11 +28,10 @@ from typing import TYPE_CHECKING, Any
 
 from raycert.cases.corpus import read_manifest
 from raycert.cases.dice import Dice
+from raycert.cases.draw import jittered, sampled
 from raycert.cases.formats import FORMATS, Format
 from raycert.cases.forms import read_ray, read_solid
-from raycert.cases.jitter import jittered
 from raycert.cases.numbers import Probe, between, numbers, ordinal
-from raycert.cases.sample import case as sampled
 from raycert.oracle.corpus.fresh import possible
 from raycert.oracle.hunt.look import Look
 from raycert.oracle.hunt.moves import MOVES, form, of_format, on_lattice, overflow, pick
@@ -150,7 +149,7 @@ def _sources(site: Site, fmt: Format) -> Iterator[Probe]:
     dice = Dice(f"hunt rows {seed} {site.unit.number}")
     number = 0
     while True:
-        jitter, sample = jittered(seed, base + number, fmt), sampled(base + number, seed)
+        jitter, sample = jittered(seed, base + number, fmt), sampled(base + number, seed, fmt)
         yield from of_format(
             [Probe(jitter.solid, jitter.ray), Probe(sample.solid, sample.ray)], fmt
         )

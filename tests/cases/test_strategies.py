@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 import raycert.cases.strategies as public
 from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
 from raycert.cases.lattice import is_lattice
-from raycert.cases.model import Ray, Solid, Tree, Vector, leaves, type_of
+from raycert.cases.model import Ray, Solid, Sphere, Tree, Vector, leaves, type_of
 from raycert.cases.recipes import neighbour
 from raycert.oracle.exact.faces import place, touch
 from raycert.oracle.exact.trace import trace
@@ -131,7 +131,7 @@ def test_the_bias_is_real(fmt: Format) -> None:
 def test_without_bias_there_is_nothing_of_it() -> None:
     """Random numbers alone: no coincidence ever, so the shares above are not chance."""
     some = st.tuples(*[st.floats(-8, 8).filter(lambda x: abs(x) > 2**-20)] * 3)
-    balls = st.builds(public.SOLIDS["sphere"], some, st.floats(0.1, 4))
+    balls = st.builds(Sphere, some, st.floats(0.1, 4))
     scenes = st.tuples(balls, st.builds(Ray, some, some))
     found = shares(scenes, 200)
     assert {"tangent", "start on a face", "a single point", "lattice"} & set(found) == set()
@@ -235,7 +235,7 @@ def test_without_hypothesis_it_says_what_to_install(monkeypatch: pytest.MonkeyPa
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    with pytest.raises(ImportError, match=r'needs Hypothesis: pip install "raycert\[test\]"'):
+    with pytest.raises(ImportError, match=r'needs Hypothesis: pip install "raycert\[hunt\]"'):
         spec.loader.exec_module(module)
 
 

@@ -3,8 +3,8 @@
 import pytest
 
 from raycert.cases.dice import Dice
+from raycert.cases.draw import jittered
 from raycert.cases.formats import BINARY32, BINARY64
-from raycert.cases.jitter import jittered
 from raycert.cases.lattice import is_lattice
 from raycert.cases.model import Ray, Sphere
 from raycert.cases.numbers import Probe, numbers, ordinal

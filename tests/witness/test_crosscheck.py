@@ -9,8 +9,8 @@ import pytest
 from click.testing import CliRunner
 
 from raycert.cases.corpus import read_corpus
+from raycert.cases.draw import fresh
 from raycert.cases.model import Cylinder, Difference, Ray, Slab, Sphere, Union, leaves
-from raycert.cases.sample import fresh
 from raycert.cases.table import PROBLEM_2, Row, Signs
 from raycert.oracle.commands.crosscheck import NAMES
 from raycert.oracle.commands.crosscheck import crosscheck as command

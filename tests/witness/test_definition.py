@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import pytest
 
+from raycert.cases.draw import fresh
 from raycert.cases.model import (
     Cylinder,
     Difference,
@@ -18,7 +19,6 @@ from raycert.cases.model import (
     Sphere,
     Union,
 )
-from raycert.cases.sample import fresh
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.surd import INFINITY, Surd, fraction
 from raycert.oracle.exact.trace import trace

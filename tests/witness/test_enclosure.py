@@ -7,8 +7,8 @@ from fractions import Fraction
 import pytest
 from mpmath import iv
 
+from raycert.cases.draw import fresh
 from raycert.cases.model import Cylinder, Intersection, Ray, Slab, Sphere, Union
-from raycert.cases.sample import fresh
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, fraction
 from raycert.oracle.exact.trace import trace

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from raycert.cases.dice import Dice
+from raycert.cases.draw import fresh
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import (
     Cylinder,
@@ -24,7 +25,6 @@ from raycert.cases.model import (
     Tree,
     Union,
 )
-from raycert.cases.sample import fresh
 from raycert.oracle.exact.intervals import Intervals, intersect, subtract, union
 from raycert.oracle.exact.rounding import enclose
 from raycert.oracle.exact.surd import Surd, dyadic, fraction

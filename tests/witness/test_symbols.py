@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import pytest
 
+from raycert.cases.draw import fresh
 from raycert.cases.model import (
     Cylinder,
     Difference,
@@ -17,7 +18,6 @@ from raycert.cases.model import (
     Sphere,
     Union,
 )
-from raycert.cases.sample import fresh
 from raycert.cases.table import PROBLEM_1, PROBLEM_2
 from raycert.oracle.exact.surd import INFINITY, Surd
 from raycert.oracle.exact.trace import trace

@@ -1,15 +1,16 @@
-"""The drawn ladders: what a construction says of its answer is what the oracle finds."""
+"""Fresh cases: what a construction says of its answer is what the oracle finds."""
 
 from fractions import Fraction
 
 import pytest
 
 from raycert.cases.dice import Dice
-from raycert.cases.draw import Draw, any_aim
+from raycert.cases.draw import LADDERS, Draw, any_shot, jittered, sampled
 from raycert.cases.flags import FLAGS
 from raycert.cases.formats import FORMATS, Format
-from raycert.cases.jitter import LADDERS, jittered
-from raycert.cases.model import type_of
+from raycert.cases.lattice import is_lattice
+from raycert.cases.model import SOLIDS, type_of
+from raycert.cases.numbers import Probe, numbers
 from raycert.oracle.corpus.golden import known
 from raycert.oracle.exact.trace import trace
 
@@ -19,7 +20,7 @@ ROUNDS = 30 * len(LADDERS)
 
 @each_format
 def test_every_ladder_holds_what_its_construction_says(fmt: Format) -> None:
-    told = dict.fromkeys((name for name, _ in LADDERS), 0)
+    told = dict.fromkeys((ladder[0] for ladder in LADDERS), 0)
     for number in range(ROUNDS):
         case = jittered(11, number, fmt)
         if case.known is not None:
@@ -59,6 +60,21 @@ def test_steps_stay_on_their_ladders(fmt: Format) -> None:
 
 def test_aims_are_at_every_type_of_leaf() -> None:
     draw = Draw(Dice("aims"), FORMATS["binary64"])
-    assert len({any_aim(draw).noun for _ in range(200)}) == 5
+    assert len({any_shot(draw).text for _ in range(200)}) == 5
     kinds = {type_of(jittered(1, n, FORMATS["binary64"]).solid) for n in range(ROUNDS)}
     assert len(kinds) == 8
+
+
+@each_format
+def test_the_sample_has_every_type_and_what_is_hard(fmt: Format) -> None:
+    cases = [sampled(number, 3, fmt) for number in range(400)]
+    assert cases[:20] == [sampled(number, 3, fmt) for number in range(20)]
+    assert [type_of(case.solid) for case in cases[:8]] == list(SOLIDS)
+    for case in cases:
+        assert all(fmt.holds(x) for x in numbers(Probe(case.solid, case.ray)))
+    lists = [trace(case.solid, case.ray).intervals for case in cases]
+    touches = sum(any(enter == leave for enter, leave in found) for found in lists)
+    assert sum(map(bool, lists)) > 200
+    assert touches > 20
+    assert sum(len(found) > 1 for found in lists) > 1
+    assert sum(is_lattice(case.solid, case.ray) for case in cases) > 20
