@@ -24,11 +24,11 @@ from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.known import Expectations, Matched, failed_level, match, record
 from raycert.oracle.certify.selection import Left, Selection, able, select
 from raycert.oracle.certify.verdict import Verdict, severity, verdict
-from raycert.oracle.client.dialogue import Target
-from raycert.oracle.client.easy import easy
-from raycert.oracle.client.harness import Failure, Interrupted, Limits, Outcome, Question, greet
-from raycert.oracle.client.harness import run as ask
-from raycert.oracle.client.smoke import adapter_faults
+from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target
+from raycert.oracle.client.process import Failure
+from raycert.oracle.client.replay import Interrupted, greet
+from raycert.oracle.client.replay import run as ask
+from raycert.oracle.client.smoke import adapter_faults, easy
 from raycert.oracle.client.smoke import limits as soon
 from raycert.oracle.corpus.fresh import Fresh, fresh_rows
 

@@ -1,19 +1,21 @@
 """Code that is loaded, not spoken to: a Python callable or a shared library in a worker of ours.
 
 What it does to its process, a crash, an exit, a hang, is seen as that of a program is, and is
-pinned on its question in the same way (harness.py). Here: our end of the worker's pipes.
+pinned on its question in the same way (replay.py). Here: our end of the worker's pipes, and how
+questions travel through them.
 """
 
 from __future__ import annotations
 
 import json
+import pickle
 import sys
-from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any, Literal
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, fields
+from typing import Any, Literal, TypeVar
 
+from raycert.cases.model import SOLIDS, Ray, Solid, Tree
 from raycert.cases.protocol import Answers, BadLine, Hello, Reply, read_hello
-from raycert.oracle.client.batch import write_batch
 from raycert.oracle.client.dialogue import Dialogue, Limits, Outcome, Question, Unusable, too_much
 from raycert.oracle.client.process import Broken, Failure, Process, shown
 
@@ -31,12 +33,12 @@ class InProcess:
     kind: Literal["callable", "library"]
     spec: str
 
-    def open(self, limits: Limits, ids: Iterator[str]) -> Worked:
+    def open(self, limits: Limits, ids: Iterator[str]) -> WorkerDialogue:
         """Start a worker and load the code there. Raises `Unusable`."""
-        return Worked(self, limits)
+        return WorkerDialogue(self, limits)
 
 
-class Worked(Dialogue):
+class WorkerDialogue(Dialogue):
     """The dialogue with a worker."""
 
     def __init__(self, target: InProcess, limits: Limits) -> None:
@@ -103,3 +105,54 @@ def _outcome(id: str, answer: Any, form: Answers) -> Outcome | None:
 def _spoiled(line: bytes) -> Failure:
     text = f"its worker wrote {shown(line)!r}: the code has spoiled its memory or its pipes"
     return Failure("crash", text, shown(line, 1000))
+
+
+# A batch of questions as bytes and back. The generic pickle of a solid takes ten times as long as
+# the question, and so would checking again what was checked when the solid was made. So: tuples of
+# numbers there, and bare slots filled here. Bytes of others are not for `read_batch`.
+
+Form = tuple[Any, ...]
+KINDS = tuple(SOLIDS.values())
+NUMBER = {kind: number for number, kind in enumerate(KINDS)}
+NAMES = {kind: tuple(field.name for field in fields(kind)) for kind in (*KINDS, Ray)}
+SETTERS: dict[type, tuple[Any, ...]] = {
+    kind: tuple(getattr(kind, name).__set__ for name in names) for kind, names in NAMES.items()
+}
+"""What fills the slots of a frozen instance."""
+
+
+def write_batch(questions: Iterable[tuple[Solid, Ray]]) -> bytes:
+    """Return questions as bytes."""
+    forms = [(_plain(solid), ray.origin, ray.direction) for solid, ray in questions]
+    return pickle.dumps(forms, -1)
+
+
+def read_batch(data: bytes) -> Iterator[tuple[Solid, Ray]]:
+    """Yield the questions of a batch."""
+    for solid, origin, direction in pickle.loads(data):
+        yield _whole(solid), _filled(Ray, (origin, direction))
+
+
+def _plain(solid: Solid) -> Form:
+    kind = type(solid)
+    if isinstance(solid, Tree):
+        return NUMBER[kind], tuple([_plain(part) for part in solid.of])
+    return NUMBER[kind], *[getattr(solid, name) for name in NAMES[kind]]
+
+
+def _whole(form: Form) -> Solid:
+    kind = KINDS[form[0]]
+    if issubclass(kind, Tree):
+        return _filled(kind, (tuple([_whole(part) for part in form[1]]),))
+    return _filled(kind, form[1:])
+
+
+T = TypeVar("T")
+
+
+def _filled(kind: type[T], values: Form) -> T:
+    """Return an instance with these fields, none of them checked."""
+    instance: T = object.__new__(kind)
+    for put, value in zip(SETTERS[kind], values, strict=True):
+        put(instance, value)
+    return instance

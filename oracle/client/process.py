@@ -1,7 +1,7 @@
 """One live program: lines in, lines out, and no deadlock, whatever it does.
 
 Here: pipes, threads, time and death. Not here: what a line means (dialogue.py) and what to do after
-a failure (harness.py). Three threads pump the pipes, so that the owner never blocks on a program
+a failure (replay.py). Three threads pump the pipes, so that the owner never blocks on a program
 that does not read, does not write, or floods its standard error.
 """
 
@@ -28,7 +28,7 @@ TAIL = 4096
 SLICE = 0.2
 """How often, in seconds, a silent program is asked whether it still lives."""
 GATHER = 0.0003
-"""Seconds in which answers gather, to be read at once: to wake for each line costs more than it."""
+"""Seconds in which answers gather, to be read at once: waking for each line costs more."""
 GRACE = 0.5
 """Seconds for what follows a death or a closed input: the exit status, the last bytes."""
 
@@ -161,12 +161,13 @@ class Process:
                 self._popen.kill()
 
     def _chunk(self, deadline: float) -> bytes | None:
-        """Return the next bytes; b"" at the end, also where a child holds the pipe open."""
+        """Return the next bytes; b"" at the end; None if the time is up."""
         while True:
             wait = min(SLICE, deadline - time.monotonic())
             try:
                 return self._in.get(timeout=max(0.0, wait))
             except queue.Empty:
+                # Dead, and nothing came in the slice since: the end, though a child holds the pipe.
                 if self._gone:
                     return b""
                 self._gone = self._popen.poll() is not None
@@ -216,6 +217,8 @@ class Process:
         return Failure("hang", detail, shown(late or self._tail))
 
     def _read(self, pipe: IO[bytes]) -> None:
+        # The queue is bounded: where the owner does not read, `put` blocks, the pipe fills, and the
+        # program waits. `kill` empties the queue, so that a blocked reader gets to its end.
         with pipe, contextlib.suppress(OSError):
             while chunk := os.read(pipe.fileno(), CHUNK):
                 self._in.put(chunk)
@@ -223,11 +226,13 @@ class Process:
         self._in.put(b"")
 
     def _drain(self, pipe: IO[bytes]) -> None:
+        # Read without a bound, so that a flood of messages never blocks the program.
         with pipe, contextlib.suppress(OSError):
             while chunk := os.read(pipe.fileno(), CHUNK):
                 self._errors = (self._errors + chunk)[-TAIL:]
 
     def _write(self, pipe: IO[bytes]) -> None:
+        # The queue to here has no bound: `send` returns at once even to a program that is deaf.
         try:
             while (data := self._out.get()) is not None:
                 rest = memoryview(data)

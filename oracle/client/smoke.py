@@ -9,16 +9,131 @@ from __future__ import annotations
 
 import json
 import math
+from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Any
 
-from raycert.cases.protocol import Pairs, Reply
-from raycert.oracle.client.dialogue import Limits
-from raycert.oracle.client.easy import Easy
+from raycert.cases.model import (
+    Cylinder,
+    Difference,
+    HalfSpace,
+    InfiniteCylinder,
+    Intersection,
+    Ray,
+    Slab,
+    Solid,
+    Sphere,
+    Union,
+    types,
+)
+from raycert.cases.protocol import Hello, Pairs, Reply
+from raycert.oracle.client.dialogue import Limits, Outcome, Question
 from raycert.oracle.client.process import Failure
 
-Outcome = Reply | Failure
+INF = math.inf
+
+
+@dataclass(frozen=True, slots=True)
+class Easy:
+    """A question with its truth, and the truths for half and for twice of each radius.
+
+    The last two are None where the question is not for telling radius from diameter.
+    """
+
+    slug: str
+    solid: Solid
+    ray: Ray
+    truth: Pairs
+    halved: Pairs | None = None
+    doubled: Pairs | None = None
+
+    @property
+    def question(self) -> Question:
+        """Return the question alone."""
+        return Question(f"smoke/{self.slug}", self.solid, self.ray)
+
+    @property
+    def speed(self) -> float:
+        """Return |direction|."""
+        return math.hypot(*self.ray.direction)
+
+
+def easy(hello: Hello) -> tuple[Easy, ...]:
+    """Return the easy cases whose solids, parts included, are all declared."""
+    return tuple(case for case in EASY if types(case.solid) <= set(hello.solids))
+
+
+def _cylinder(x: float, radius: float) -> Cylinder:
+    return Cylinder((x, 0, -1), (x, 0, 1), radius)
+
+
+TANK = Cylinder((0, 0, 0), (0, 0, 4), 2)
+PIPE = InfiniteCylinder((0, 0, 0), (0, 0, 1), 3)
+LAYER = Slab((0, 0, 0), (0, 0, 4))
+WALL = HalfSpace((2, 0, 0), (4, 0, 0))
+BALL = Sphere((1, 2, 3), 2)
+DRUM = Cylinder((0, -1, 0), (0, 3, 0), 3)
+BEAM = Cylinder((1, 1, 1), (5, 1, 1), 1)
+PILLARS = Union((_cylinder(0, 1), _cylinder(6, 1)))
+BALLS = Union((Sphere((0, 0, 0), 1), Sphere((6, 0, 0), 1)))
+OVERLAP = Intersection((_cylinder(0, 2), _cylinder(1, 2)))
+TUBE = Difference((_cylinder(0, 2), _cylinder(0, 1)))
+PAIRS = [(2.5, 3.5), (5.5, 6.5)], [(2.75, 3.25), (5.75, 6.25)], [(2, 4), (5, 7)]
+
+# fmt: off
+TABLE: tuple[tuple[Any, ...], ...] = (
+    ("cylinder-through", TANK, (-6, 0, 1), (2, 0, 0), [(2, 4)], [(2.5, 3.5)], [(1, 5)]),
+    ("cylinder-along-the-axis", TANK, (0.5, 0, -2), (0, 0, 4), [(0.5, 1.5)]),
+    ("cylinder-miss", TANK, (-6, 5, 1), (2, 0, 0), []),
+    ("cylinder-from-inside", TANK, (0, 0, 1), (0, 4, 0), [(0, 0.5)], [(0, 0.25)], [(0, 1)]),
+    ("cylinder-parallel-outside", TANK, (3, 0, -2), (0, 0, 2), [], [], [(1, 3)]),
+    ("cylinder-cap-to-side", TANK, (-1, 0, -2), (3, 0, 4),
+     [(0.5, 1)], [(0.5, 2 / 3)], [(0.5, 1.5)]),
+    ("cylinder-behind", TANK, (6, 0, 1), (2, 0, 0), []),
+    ("cylinder-diagonal", TANK, (-6, -8, 2), (3, 4, 0), [(1.6, 2.4)], [(1.8, 2.2)], [(1.2, 2.8)]),
+    ("cylinder-other-axis", DRUM, (0, 1, -9), (0, 0, 3), [(2, 4)], [(2.5, 3.5)], [(1, 5)]),
+    ("cylinder-off-centre", BEAM, (-3, 1, 1), (8, 0, 0), [(0.5, 1)]),
+    ("cylinder-farther", TANK, (-20, 0, 3), (4, 0, 0), [(4.5, 5.5)], [(4.75, 5.25)], [(4, 6)]),
+    ("cylinder-inside-along", TANK, (0, 0, 1), (0, 0, 2), [(0, 1.5)]),
+    ("infinite-cylinder-through", PIPE, (-9, 0, 7), (3, 0, 0), [(2, 4)], [(2.5, 3.5)], [(1, 5)]),
+    ("infinite-cylinder-inside-along", PIPE, (1, 0, 0), (0, 0, 2), [(0, INF)]),
+    ("infinite-cylinder-oblique", PIPE, (0, -15, 0), (0, 6, 8),
+     [(2, 3)], [(2.25, 2.75)], [(1.5, 3.5)]),
+    ("infinite-cylinder-behind", PIPE, (9, 0, 0), (4, 0, 0), []),
+    ("infinite-cylinder-from-inside", PIPE, (1, 0, 5), (4, 0, 0),
+     [(0, 0.5)], [(0, 0.125)], [(0, 1.25)]),
+    ("slab-through", LAYER, (0, 0, -6), (0, 0, 4), [(1.5, 2.5)]),
+    ("slab-inside-along", LAYER, (1, 1, 1), (5, 0, 0), [(0, INF)]),
+    ("slab-oblique", LAYER, (0, 0, -4), (3, 0, 4), [(1, 2)]),
+    ("slab-behind", LAYER, (0, 0, 6), (0, 0, 2), []),
+    ("slab-from-inside", LAYER, (0, 0, 2), (0, 6, 8), [(0, 0.25)]),
+    ("half-space-into", WALL, (6, 0, 0), (-8, 0, 0), [(0.5, INF)]),
+    ("half-space-out-of", WALL, (0, 0, 0), (4, 0, 0), [(0, 0.5)]),
+    ("half-space-along-outside", WALL, (6, 0, 0), (0, 3, 4), []),
+    ("half-space-oblique", WALL, (17, 0, 0), (-6, 8, 0), [(2.5, INF)]),
+    ("sphere-through", BALL, (-7, 2, 3), (4, 0, 0), [(1.5, 2.5)], [(1.75, 2.25)], [(1, 3)]),
+    ("sphere-from-centre", BALL, (1, 2, 3), (0, 0, 8), [(0, 0.25)], [(0, 0.125)], [(0, 0.5)]),
+    ("sphere-miss", BALL, (1, 10, 3), (0, 2, 0), []),
+    ("sphere-oblique", BALL, (1, -4, -5), (0, 3, 4), [(1.6, 2.4)], [(1.8, 2.2)], [(1.2, 2.8)]),
+    ("union-of-cylinders", PILLARS, (-6, 0, 0), (2, 0, 0), *PAIRS),
+    ("union-of-spheres", BALLS, (-6, 0, 0), (2, 0, 0), *PAIRS),
+    ("intersection-of-cylinders", OVERLAP, (-6, 0, 0), (2, 0, 0),
+     [(2.5, 4)], [(3, 3.5)], [(1.5, 5)]),
+    ("difference-of-cylinders", TUBE, (-6, 0, 0), (2, 0, 0),
+     [(2, 2.5), (3.5, 4)], [(2.5, 2.75), (3.25, 3.5)], [(1, 2), (4, 5)]),
+)
+# fmt: on
+"""Slug, solid, origin, direction; the truth, and where it tells those for half and for
+twice the radius.
+
+Neighbours differ, so that an answer to the question before shows.
+"""
+EASY = tuple(
+    Easy(slug, solid, Ray(origin, direction), *map(tuple, lists))
+    for slug, solid, origin, direction, *lists in TABLE
+)
 
 
 def limits(usual: Limits) -> Limits:
@@ -59,38 +174,37 @@ def _refusal(outcome: Outcome) -> str | None:
 def _of_failures(broken: Sequence[Failure]) -> list[str]:
     """Say what most failures have in common."""
     first = broken[0]
-    for kind, say in SAYINGS.items():
-        same = [failure for failure in broken if failure.kind == kind]
-        if 2 * len(same) > len(broken):
-            return [say(same[0])]
+    kind, times = Counter(failure.kind for failure in broken).most_common(1)[0]
+    if 2 * times > len(broken) and kind != "unrepeatable":
+        return [_saying(next(failure for failure in broken if failure.kind == kind))]
     return [f"It fails on most easy cases, in different ways; first: {first.kind}: {first.detail}."]
 
 
-def _of_hang(failure: Failure) -> str:
-    if failure.line:
-        return (
-            "Its answers come too late: what it wrote came only when its input was closed, or has "
-            f"no newline at its end. End each answer with a newline and {FLUSH}; do not wait for "
-            f"the end of the input. Seen: {failure.line!r}."
-        )
-    return (
-        f"It does not answer ({failure.detail}). Read one line, answer it, and {FLUSH}; "
-        "do not wait for the end of the input."
-    )
-
-
-def _of_crash(failure: Failure) -> str:
-    return (
-        f"It ends or crashes on most easy cases: {failure.detail}. It has to go on reading lines "
-        "until its input ends."
-    )
-
-
-def _of_wrong_id(failure: Failure) -> str:
-    return (
-        f"It does not give the id back: {failure.detail}. Copy `id`, a string, from each question "
-        "to its answer, and answer in order, one line each."
-    )
+def _saying(failure: Failure) -> str:
+    seen = failure.detail
+    match failure.kind:
+        case "hang" if failure.line:
+            return (
+                "Its answers come too late: what it wrote came only when its input was closed, or "
+                f"has no newline at its end. End each answer with a newline and {FLUSH}; do not "
+                f"wait for the end of the input. Seen: {failure.line!r}."
+            )
+        case "hang":
+            return (
+                f"It does not answer ({seen}). Read one line, answer it, and {FLUSH}; "
+                "do not wait for the end of the input."
+            )
+        case "crash":
+            return (
+                f"It ends or crashes on most easy cases: {seen}. It has to go on reading lines "
+                "until its input ends."
+            )
+        case "wrong-id":
+            return (
+                f"It does not give the id back: {seen}. Copy `id`, a string, from each question "
+                "to its answer, and answer in order, one line each."
+            )
+    return _of_bad_line(failure)
 
 
 def _of_bad_line(failure: Failure) -> str:
@@ -109,13 +223,6 @@ def _of_bad_line(failure: Failure) -> str:
         )
     return f"Its answers have not the form that its hello promises: {failure.detail}; {SHAPE}."
 
-
-SAYINGS: dict[str, Callable[[Failure], str]] = {
-    "hang": _of_hang,
-    "crash": _of_crash,
-    "wrong-id": _of_wrong_id,
-    "bad-line": _of_bad_line,
-}
 
 Misreading = Callable[[Easy], Pairs | None]
 
@@ -148,49 +255,36 @@ def _seen_as(view: Callable[[float], float], case: Easy) -> Easy:
     return replace(case, truth=seen(case.truth), halved=halved, doubled=doubled)
 
 
-def _each(change: Callable[[float, float], tuple[float, float]]) -> Misreading:
-    """Make a misreading out of what it does to each pair."""
-    return lambda case: tuple(change(enter, leave) for enter, leave in case.truth)
-
-
-def _times(factor: Callable[[float], float]) -> Misreading:
-    """Make a misreading that multiplies every t by a function of |direction|."""
-    return lambda case: tuple(
-        (enter * factor(case.speed), leave * factor(case.speed)) for enter, leave in case.truth
-    )
+def _each(change: Callable[[float, float, float], tuple[float, float]]) -> Misreading:
+    """Make a misreading out of what it does to each pair, knowing |direction|."""
+    return lambda case: tuple(change(enter, leave, case.speed) for enter, leave in case.truth)
 
 
 MISREADINGS: tuple[tuple[str, Misreading], ...] = (
     (
         "Its answers are t * |direction|: distances, or the direction was normalised. t is in "
         "units of the direction as it is given, so divide by |direction|.",
-        _times(lambda speed: speed),
+        _each(lambda a, b, speed: (a * speed, b * speed)),
     ),
     (
         "Its answers are t * |direction|^2: a division by direction . direction is missing.",
-        _times(lambda speed: speed * speed),
+        _each(lambda a, b, speed: (a * speed**2, b * speed**2)),
     ),
     (
         "Its answers are t / |direction|: they are divided by the length once too often.",
-        _times(lambda speed: 1 / speed),
+        _each(lambda a, b, speed: (a / speed, b / speed)),
     ),
-    ("Its answers are t^2: squared parameters.", _each(lambda a, b: (a * a, b * b))),
-    (
-        "It has enter and leave swapped: each pair is [enter, leave].",
-        _each(lambda a, b: (b, a)),
-    ),
+    ("Its answers are t^2: squared parameters.", _each(lambda a, b, _: (a * a, b * b))),
+    ("It has enter and leave swapped: each pair is [enter, leave].", _each(lambda a, b, _: (b, a))),
     (
         "Its pairs are [enter, length]: the second number is where the ray leaves.",
-        _each(lambda a, b: (a, b - a)),
+        _each(lambda a, b, _: (a, b - a)),
     ),
     (
         "It takes `radius` as the diameter: its answers are those for half the radius.",
         lambda case: case.halved,
     ),
-    (
-        "It doubles `radius`: its answers are those for twice the radius.",
-        lambda case: case.doubled,
-    ),
+    ("It doubles `radius`: its answers are those for twice the radius.", lambda case: case.doubled),
 )
 
 
@@ -216,7 +310,7 @@ def _constant(answers: Sequence[tuple[Easy, Pairs]]) -> Iterator[str]:
 
 
 def _late(answers: Sequence[tuple[Easy, Pairs]]) -> Iterator[str]:
-    """Tell answers that belong to the question before."""
+    """Yield that the answers belong to the question before."""
     shifted = [_close(answer, before.truth) for (before, _), (_, answer) in pairwise(answers)]
     if len(shifted) > 2 and all(shifted):
         yield (
@@ -238,7 +332,7 @@ def _misread(answers: Sequence[tuple[Easy, Pairs]], wrong: int) -> Iterator[str]
 
 
 def _close(subject: Pairs, truth: Pairs | None) -> bool:
-    """Tell whether two lists agree to about five digits."""
+    """Whether two lists agree to about five digits."""
     return (
         truth is not None
         and len(subject) == len(truth)

@@ -13,19 +13,22 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from raycert.oracle.client.dialogue import Target, Unusable
+from raycert.oracle.client.dialogue import Command, Target, Unusable
 from raycert.oracle.client.inprocess import InProcess
-from raycert.oracle.client.loaded import LIBRARIES, CannotLoad, Loaded
-from raycert.oracle.client.piped import Command
 
+if TYPE_CHECKING:
+    from raycert.oracle.client.worker import Loaded
+
+LIBRARIES = (".so", ".dylib", ".dll")
 CALLABLE = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
 
 
 def target(words: Sequence[str]) -> Target:
     """Return the target that the words of a command line name. Raises `Unusable`.
 
-    Nothing is started or loaded yet. `harness.greet` and `harness.run` take it, any number of
+    Nothing is started or loaded yet. `replay.greet` and `replay.run` take it, any number of
     times, and guard against all that it may do.
     """
     if len(words) == 1:
@@ -52,7 +55,7 @@ def load(words: Sequence[str]) -> Loaded:
             f"{' '.join(words)!r} is a program. Only module:function and a shared library can be "
             "loaded."
         )
-    from raycert.oracle.client.worker import KINDS
+    from raycert.oracle.client.worker import KINDS, CannotLoad
 
     try:
         return KINDS[found.kind](found.spec)

@@ -1,38 +1,72 @@
-"""The process that code of others runs in: questions in, answers out, through pipes of its own.
+"""The process that code of others runs in, and how that code is loaded, called and understood.
 
 In:  the kind and place of the code on the command line; then, on standard input, batches: 4 bytes
-     that give the length, and the questions as batch.py writes them.
+     that give the length, and the questions as inprocess.py writes them.
 Out: lines of JSON. The first is {"hello": ...} or {"unusable": why}; every other one is a list of
      answers in the order of the questions. They are sent when a batch is done, or 5 ms after the
      last that were sent, so that neither a line for each nor a long silence costs anything.
 
 An answer is what is promised, a list of pairs, a first hit or a truth value, or else an object
-with the one key `error`, `unsupported` or `bad`. What comes out is JSON, as it comes from a process
-whose memory code of others may have spoiled. The code sees an empty standard
-input, and what it prints goes to standard error.
+with the one key `error`, `unsupported` or `bad`. The lines are JSON, not pickles, because the code
+may have spoiled the memory of the process that writes them. The code sees an empty standard input,
+and what it prints goes to standard error.
+
+What a call may return, and the answer that it means; any value gets an outcome:
+
+    intervals   an iterable of pairs (enter, leave), at most `MOST`; a NumPy array is one
+    first       a number, or None for a miss
+    any         True or False
+
+A number is a float, an integer, or what has `__float__` and is neither text nor a truth value; it
+is rounded to the declared precision, and None or infinity ends an interval that never ends. Whether
+the numbers make a well-formed list is for the judge.
 """
 
 from __future__ import annotations
 
+import ctypes
+import importlib
 import json
+import math
 import os
 import sys
 import time
+from array import array
 from collections.abc import Callable, Iterable
-from typing import BinaryIO
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import BinaryIO, SupportsFloat
 
-from raycert.cases.model import Ray, Solid
-from raycert.cases.protocol import Reply, write_hello
-from raycert.oracle.client.batch import read_batch
-from raycert.oracle.client.library import load_library
-from raycert.oracle.client.loaded import CannotLoad, Loaded, load_callable
+from raycert.cases.formats import Format
+from raycert.cases.model import SOLIDS, TYPE_NAMES, Ray, Solid, Tree
+from raycert.cases.numbers import leaf_numbers
+from raycert.cases.protocol import VERSION, BadLine, Hello, Pairs, Reply, read_hello, write_hello
+from raycert.oracle.client.inprocess import read_batch
 from raycert.oracle.client.process import Failure
 
 FLUSH = 0.005
 LONGEST = 1 << 18
 """A line is ended once it has so many characters; one answer more goes into it."""
-Kinds = dict[str, Callable[[str], Loaded]]
-KINDS: Kinds = {"callable": load_callable, "library": load_library}
+MOST = 4096
+"""No list has more pairs than this: that is more than any question asks for."""
+ROOM = 64
+"""How many pairs there is room for at first in what a library writes to."""
+CODES = {name: code for code, name in enumerate(SOLIDS, 1)}
+"""The codes of raycert.h: half_space 1, sphere 2, ... difference 8."""
+HEADER = "raycert harness library writes the header and an example"
+
+
+class CannotLoad(Exception):
+    """The code cannot be had; the text says what was seen and what to do."""
+
+
+class NoAnswer(ValueError):
+    """A value that is not of the promised form; the text says what it is."""
+
+
+class LibraryError(Exception):
+    """The library could not answer, and says so."""
 
 
 def main(kind: str, spec: str) -> None:
@@ -50,7 +84,11 @@ def main(kind: str, spec: str) -> None:
 
 
 def _private_pipes() -> tuple[BinaryIO, BinaryIO]:
-    """Take standard input and output away from the code, and return them."""
+    """Take standard input and output away from the code, and return them.
+
+    Copies of both descriptors are kept for us. Then 0 reads nothing, and 1 goes where 2 goes, also
+    for code in C that writes to it past Python.
+    """
     questions, answers = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb", buffering=0)
     nothing = os.open(os.devnull, os.O_RDONLY)
     os.dup2(nothing, 0)
@@ -61,18 +99,18 @@ def _private_pipes() -> tuple[BinaryIO, BinaryIO]:
 
 def _answer(batch: Iterable[tuple[Solid, Ray]], loaded: Loaded, answers: BinaryIO) -> None:
     """Answer a batch of questions."""
-    said: list[str] = []
+    texts: list[str] = []
     length = 0
     sent = time.monotonic()
     for solid, ray in batch:
         text = _write(loaded(solid, ray))
-        said.append(text)
+        texts.append(text)
         length += len(text)
         if time.monotonic() - sent > FLUSH or length > LONGEST:
-            _send(answers, f"[{','.join(said)}]")
-            said, length, sent = [], 0, time.monotonic()
-    if said:
-        _send(answers, f"[{','.join(said)}]")
+            _send(answers, f"[{','.join(texts)}]")
+            texts, length, sent = [], 0, time.monotonic()
+    if texts:
+        _send(answers, f"[{','.join(texts)}]")
 
 
 def _write(outcome: Reply | Failure) -> str:
@@ -88,8 +126,288 @@ def _write(outcome: Reply | Failure) -> str:
 
 def _send(answers: BinaryIO, line: str) -> None:
     rest = memoryview(line.encode("ascii") + b"\n")
-    while rest:
+    while rest:  # a raw pipe may take less than it is given
         rest = rest[answers.write(rest) :]
+
+
+# Loading: a Python callable or a shared library, with what it declares. Nothing protects from it.
+
+
+@dataclass(frozen=True, slots=True)
+class Loaded:
+    """Code that is in this process: what it declares, and the bare call, which may do anything."""
+
+    hello: Hello
+    raw: Callable[[Solid, Ray], object]
+
+    def __call__(self, solid: Solid, ray: Ray) -> Reply | Failure:
+        """Return the answer to a question, as a reply without an id."""
+        return outcome(partial(self.raw, solid, ray), self.hello)
+
+
+def load_callable(spec: str) -> Loaded:
+    """Load `module:function`; the current directory is searched first. Raises `CannotLoad`.
+
+    A dict `hello` that the function or else its module has declares it, with the fields of the
+    protocol's hello; where there is none, it is a closed binary64 tracer of every solid.
+    """
+    module_name, _, path = spec.partition(":")
+    if "" not in sys.path:
+        sys.path.insert(0, "")
+    try:
+        module = importlib.import_module(module_name)
+    except (Exception, SystemExit) as error:
+        raise CannotLoad(
+            f"cannot import {module_name!r}: {described(error)}. The target is MODULE:FUNCTION, "
+            "looked for in the current directory, then on PYTHONPATH, then among what is installed."
+        ) from None
+    function: object = module
+    for name in path.split("."):
+        if not hasattr(function, name):
+            place = getattr(module, "__file__", "built in")
+            raise CannotLoad(
+                f"{module_name!r} has no {path!r} (it is {place}). The target is MODULE:FUNCTION, "
+                "such as tracer:intersect."
+            )
+        function = getattr(function, name)
+    if not callable(function):
+        raise CannotLoad(
+            f"{spec!r} is a {type(function).__name__}, and not a function intersect(solid, ray)."
+        )
+    declared = getattr(function, "hello", getattr(module, "hello", {}))
+    return Loaded(_declared(declared, spec), function)
+
+
+def _declared(fields: object, spec: str) -> Hello:
+    if not isinstance(fields, dict):
+        raise CannotLoad(
+            f"the `hello` of {spec!r} is a {type(fields).__name__}: it has to be a dict of the "
+            'fields of a hello, such as {"name": "my tracer", "solids": ["sphere"]}.'
+        )
+    try:
+        line = json.dumps({"hello": VERSION, "name": spec, **fields})
+    except (TypeError, ValueError, RecursionError) as error:
+        raise CannotLoad(f"the `hello` of {spec!r} is not JSON: {error}.") from None
+    return read_declared(line.encode(), spec)
+
+
+def read_declared(line: bytes, spec: str) -> Hello:
+    """Return the hello that code gives of itself. Raises `CannotLoad`."""
+    try:
+        return read_hello(line)
+    except BadLine as error:
+        raise CannotLoad(f"{spec!r} gave a bad hello: {error}.") from None
+
+
+# A shared library: the C signatures of starters/library/raycert.h, called by ctypes.
+
+
+def load_library(path: str) -> Loaded:
+    """Load a shared library. Raises `CannotLoad`."""
+    try:
+        library = ctypes.CDLL(str(Path(path).resolve()))
+    except OSError as error:
+        raise CannotLoad(
+            f"cannot load {path!r}: {error}. It has to be a shared library for this machine "
+            "(cc -shared -fPIC)."
+        ) from None
+    try:
+        function = library.raycert_intersect
+    except AttributeError:
+        raise CannotLoad(
+            f'{path!r} has no symbol raycert_intersect; {HEADER} (in C++, it has to be extern "C").'
+        ) from None
+    pointer, length = ctypes.c_void_p, ctypes.c_int32
+    function.argtypes = (pointer, length, pointer, length, pointer, pointer, pointer, length)
+    function.restype = ctypes.c_int
+    hello = _hello(library, path)
+    return Loaded(hello, Library(function, hello))
+
+
+def _hello(library: ctypes.CDLL, path: str) -> Hello:
+    try:
+        function = library.raycert_hello
+    except AttributeError:
+        return Hello(Path(path).name)
+    function.argtypes, function.restype = (), ctypes.c_char_p
+    line = function()
+    if line is None:
+        raise CannotLoad(f"raycert_hello of {path!r} returned NULL, and not a line of JSON.")
+    return read_declared(line, path)
+
+
+def flat(solid: Solid) -> tuple[array[int], array[float]]:
+    """Return a solid in prefix order: its codes, each tree's followed by its count; its numbers."""
+    words, numbers = array("i"), array("d")
+    _flatten(solid, words, numbers)
+    return words, numbers
+
+
+def _flatten(solid: Solid, words: array[int], numbers: array[float]) -> None:
+    words.append(CODES[TYPE_NAMES[type(solid)]])
+    if isinstance(solid, Tree):
+        words.append(len(solid.of))
+        for part in solid.of:
+            _flatten(part, words, numbers)
+        return
+    numbers.extend(leaf_numbers(solid))
+
+
+class Library:
+    """The function of a library as a callable of a solid and a ray."""
+
+    def __init__(self, function: ctypes._NamedFuncPointer, hello: Hello) -> None:
+        """Hold the function, and room for its answers."""
+        self._function = function
+        self._answers = hello.answers
+        self._make_room(ROOM)
+
+    def _make_room(self, pairs: int) -> None:
+        self._room = pairs
+        self._out = array("d", [math.nan]) * (2 * pairs)
+        self._blank = array("d", self._out)
+
+    def __call__(self, solid: Solid, ray: Ray) -> object:
+        """Return the list of pairs, the first hit or None, or the truth value. `NoAnswer`."""
+        words, numbers = flat(solid)
+        count = self._call(words, numbers, ray)
+        if self._answers != "intervals":
+            if count not in (0, 1):
+                raise NoAnswer(f"{count} from raycert_intersect, which has to return 0 or 1")
+            hit = self._out[0] if count else None
+            return hit if self._answers == "first" else bool(count)
+        if count > self._room:  # it told how many there are, and wrote only what had room
+            if count > MOST:
+                raise NoAnswer(f"more than {MOST} intervals: {count}")
+            self._make_room(count)
+            again = self._call(words, numbers, ray)
+            if again != count:
+                raise NoAnswer(f"{count} intervals, and when asked again {again}")
+        ends = self._out[: 2 * count]
+        return list(zip(ends[::2], ends[1::2], strict=True))
+
+    def _call(self, words: array[int], numbers: array[float], ray: Ray) -> int:
+        """Call the function; return how many pairs there are. What it did not write is NaN."""
+        origin, direction = array("d", ray.origin), array("d", ray.direction)
+        self._out[:] = self._blank
+        count: int = self._function(
+            words.buffer_info()[0],
+            len(words),
+            numbers.buffer_info()[0],
+            len(numbers),
+            origin.buffer_info()[0],
+            direction.buffer_info()[0],
+            self._out.buffer_info()[0],
+            self._room,
+        )
+        if count == -1:
+            raise NotImplementedError("raycert_intersect returned -1")
+        if count == -2:
+            raise LibraryError("raycert_intersect returned -2")
+        if count < 0:
+            raise NoAnswer(f"{count} from raycert_intersect, which has to return -2 or more")
+        return count
+
+
+KINDS: dict[str, Callable[[str], Loaded]] = {"callable": load_callable, "library": load_library}
+
+
+# Values: what a call returned, as the reply that it means.
+
+
+def outcome(call: Callable[[], object], hello: Hello) -> Reply | Failure:
+    """Return what a call answers, with no id. Never raises, but what is no `Exception`.
+
+    `NotImplementedError` is the reply `unsupported`, another exception the reply `error`, a value
+    that is not of the form that the hello promises a failure.
+    """
+    try:
+        return read(call(), hello)
+    except NoAnswer as error:
+        return Failure("bad-line", f"it returned {error}")
+    except NotImplementedError as error:
+        return Reply("", unsupported=described(error))
+    except Exception as error:
+        return Reply("", error=described(error))
+
+
+def described(error: BaseException) -> str:
+    """Return an exception as text, also one whose own text cannot be had."""
+    try:
+        text = str(error)
+    except Exception:
+        text = ""
+    kind = type(error).__name__
+    return (f"{kind}: {text}" if text else kind)[:1000]
+
+
+def read(value: object, hello: Hello) -> Reply:
+    """Return the reply that a value means, with no id. May raise `NoAnswer`, or anything."""
+    if hello.answers == "intervals":
+        return Reply("", intervals=_pairs(value, hello.format))
+    if hello.answers == "first":
+        return Reply("", first=None if value is None else number(value, hello.format))
+    if isinstance(value, bool):
+        return Reply("", hit=value)
+    if type(value).__module__ == "numpy" and type(value).__name__ in ("bool", "bool_"):
+        return Reply("", hit=bool(value))
+    raise NoAnswer(f"{in_words(value)}, and not True or False")
+
+
+def _pairs(value: object, fmt: Format) -> Pairs:
+    if isinstance(value, str | bytes | dict) or not hasattr(value, "__iter__"):
+        raise NoAnswer(f"{in_words(value)}, and not a list of pairs (an empty one is a miss)")
+    pairs: list[tuple[float, float]] = []
+    for pair in value:
+        if len(pairs) == MOST:
+            raise NoAnswer(f"more than {MOST} intervals")
+        pairs.append(_pair(pair, fmt))
+    return tuple(pairs)
+
+
+def _pair(pair: object, fmt: Format) -> tuple[float, float]:
+    if isinstance(pair, str | bytes | dict | set) or not hasattr(pair, "__iter__"):
+        raise NoAnswer(f"an interval that is {in_words(pair)}, and not a pair of numbers")
+    ends: list[float] = []
+    for end in pair:
+        if len(ends) == 2:
+            raise NoAnswer(f"an interval of more than two numbers: {in_words(pair)}")
+        ends.append(math.inf if end is None else number(end, fmt))
+    if len(ends) != 2:
+        raise NoAnswer(f"an interval that has not two numbers: {in_words(pair)}")
+    return ends[0], ends[1]
+
+
+def number(value: object, fmt: Format) -> float:
+    """Return a value as the nearest number of a format. Raises `NoAnswer` if it is no number."""
+    if type(value) is not float:
+        if isinstance(value, bool | str | bytes | bytearray) or not isinstance(
+            value, SupportsFloat
+        ):
+            raise NoAnswer(f"{in_words(value)} where a number has to be")
+        try:
+            value = float(value)
+        except OverflowError:
+            value = math.inf if value > 0 else -math.inf  # type: ignore[operator]
+        except (TypeError, ValueError):
+            raise NoAnswer(f"{in_words(value)} where a number has to be") from None
+    return value if fmt.name == "binary64" else fmt.nearest(value)
+
+
+def in_words(value: object) -> str:
+    """Return a few words that tell what a value is, whatever its `repr` does."""
+    kind = type(value).__name__
+    if value is None or isinstance(value, bool):
+        return repr(value)
+    if isinstance(value, int) and value.bit_length() > 128:
+        return f"an integer of {value.bit_length()} bits"
+    if isinstance(value, str | bytes | int | float):
+        return f"the {kind} {value[:60] if isinstance(value, str | bytes) else value!r}"
+    try:
+        text = repr(value) if isinstance(value, tuple) and len(value) < 4 else ""
+    except Exception:
+        text = ""
+    return f"a {kind} {text}"[:80].rstrip()
 
 
 if __name__ == "__main__":

@@ -111,7 +111,7 @@ class Campaign:
         from raycert.cases.protocol import BadLine
         from raycert.oracle.certify.known import BadExpectations, Expectations
         from raycert.oracle.certify.run import NotInCorpus, Unsuitable, prepare
-        from raycert.oracle.client.harness import Unusable
+        from raycert.oracle.client.dialogue import Unusable
 
         self.session = session
         self.file: str | None = session.config.getoption("--raycert-expect")
@@ -145,7 +145,7 @@ class Campaign:
     def _graded(self, family: str) -> list[Grade]:
         """Return the grades of a family, asked now if they were not before."""
         from raycert.oracle.certify.run import Unsuitable, conduct
-        from raycert.oracle.client.harness import Unusable
+        from raycert.oracle.client.dialogue import Unusable
 
         if family not in self.grades:
             try:

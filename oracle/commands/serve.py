@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
 import click
+
+from raycert.oracle.commands.options import PRECISIONS
+
+if TYPE_CHECKING:
+    from raycert.cases.model import Ray, Solid
 
 EPILOG = """\b
 oracle     the exact lists, correctly rounded
@@ -16,7 +23,7 @@ Try it:
 
 @click.command(epilog=EPILOG)
 @click.argument("name", type=click.Choice(["oracle", "reference"]))
-@click.option("--precision", type=click.Choice(["binary64", "binary32"]), default="binary64")
+@click.option("--precision", type=click.Choice(PRECISIONS), default="binary64")
 @click.option("--numbers", type=click.Choice(["decimal", "hex", "bits"]), default="decimal")
 def serve(name: str, precision: str, numbers: str) -> None:
     """Answer the line protocol on standard input and output until the input ends."""
@@ -27,6 +34,18 @@ def serve(name: str, precision: str, numbers: str) -> None:
         import sys
 
         raise SystemExit(subprocess.call([sys.executable, "-m", "raycert.reference"]))
-    from raycert.oracle.client.service import serve_oracle
+    _serve_oracle(precision, numbers)
 
-    serve_oracle(precision, numbers)
+
+def _serve_oracle(precision: str, numbers: Any) -> None:
+    """Answer every case with the exact list, correctly rounded to the precision."""
+    from raycert.cases.formats import FORMATS
+    from raycert.cases.protocol import Hello
+    from raycert.cases.serve import serve
+    from raycert.oracle.exact.rounding import expected
+    from raycert.oracle.exact.trace import trace
+
+    def intersect(solid: Solid, ray: Ray) -> tuple[tuple[float, float], ...]:
+        return expected(trace(solid, ray).intervals, FORMATS[precision])[1]
+
+    serve(intersect, Hello("raycert oracle", precision=precision, numbers=numbers))

@@ -14,7 +14,7 @@ from raycert.cases.protocol import Hello
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.client.dialogue import Limits, Question, Target, Unusable
-from raycert.oracle.client.harness import greet, run
+from raycert.oracle.client.replay import greet, run
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,6 @@
 """A target that stays open for batch after batch: one answer to every question, whatever it does.
 
-A failure of the process is pinned by the harness, which asks what was under way again, one by one.
+A failure of the process is pinned as the replay pins it: what was under way is asked again, alone.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from math import inf
 
 from raycert.cases.numbers import Probe
 from raycert.cases.protocol import Hello
-from raycert.oracle.client import harness
+from raycert.oracle.client import replay
 from raycert.oracle.client.dialogue import (
     Dialogue,
     Limits,
@@ -106,12 +106,12 @@ class Session:
             raise
 
     def _pin(self, dialogue: Dialogue, failure: Failure, known: dict[str, Outcome]) -> None:
-        """Ask what was under way again, as the harness does."""
+        """Ask what was under way again, as the replay does."""
         last = [dialogue.last] if dialogue.last else []
         under_way = dialogue.unanswered or last
         self.clock.check()
         limits = replace(self._limits, lost=min(self._limits.lost, self.clock.left()))
-        again = harness.run(self._target, under_way, limits).outcomes
+        again = replay.run(self._target, under_way, limits).outcomes
         known.update(again)
         if not any(isinstance(outcome, Failure) for outcome in again.values()):
             detail = f"did not come again: {failure.kind}: {failure.detail}"

@@ -17,7 +17,8 @@ from raycert.cases.formats import BINARY64
 from raycert.cases.model import Refused, types
 from raycert.cases.protocol import Hello, Reply
 from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target, Unusable
-from raycert.oracle.client.harness import Failure, Interrupted, greet, run
+from raycert.oracle.client.process import Failure
+from raycert.oracle.client.replay import Interrupted, greet, run
 from raycert.oracle.judge.answer import Claim, First, Listed, YesNo, claim
 from raycert.oracle.judge.levels import Judge
 from raycert.oracle.judge.pixels import error

@@ -15,8 +15,9 @@ from dataclasses import dataclass
 from itertools import islice
 
 from raycert.cases.protocol import VERSION, ask, encode
-from raycert.oracle.client.dialogue import fresh_ids
-from raycert.oracle.client.harness import Failure, Question, greet, run
+from raycert.oracle.client.dialogue import Question, fresh_ids
+from raycert.oracle.client.process import Failure
+from raycert.oracle.client.replay import greet, run
 
 REPEATS = 5
 

@@ -39,7 +39,7 @@ FAULTS: tuple[Fault, ...] = (
 
 BY_NAME: dict[str, Fault] = {fault.name: fault for fault in FAULTS}
 
-HARNESS = "tests/client/test_harness.py::"
+HARNESS = "tests/client/test_replay.py::"
 PINNED = HARNESS + "test_a_fault_is_pinned_on_its_question"
 CRASHES = HARNESS + "test_crashes_and_hangs_are_pinned_and_all_else_is_graded"
 PROCESS: tuple[ProcessFault, ...] = (

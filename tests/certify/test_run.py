@@ -27,7 +27,7 @@ from raycert.oracle.certify.run import (
 )
 from raycert.oracle.certify.selection import Selection, Shard
 from raycert.oracle.certify.verdict import by_family
-from raycert.oracle.client.harness import Limits, Unusable
+from raycert.oracle.client.dialogue import Limits, Unusable
 from raycert.oracle.corpus.fresh import Fresh
 
 HERE = Path(str(oracle.__file__)).parent.parent

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from raycert.cases.model import Cylinder, Ray, Union
 from raycert.cases.strategies import rays, solids
-from raycert.oracle.client.batch import read_batch, write_batch
+from raycert.oracle.client.inprocess import read_batch, write_batch
 
 
 @given(st.lists(st.tuples(solids(), rays()), max_size=3))

@@ -16,10 +16,11 @@ from raycert.cases.model import SOLIDS, Cylinder, Difference, HalfSpace, Ray, Sl
 from raycert.cases.protocol import Hello, Reply
 from raycert.oracle.certify.grading import grade
 from raycert.oracle.certify.verdict import verdict
-from raycert.oracle.client.harness import Limits, Question, Run, Unusable, greet, run
-from raycert.oracle.client.library import CODES, flat
+from raycert.oracle.client.dialogue import Limits, Question, Unusable
 from raycert.oracle.client.process import Failure
+from raycert.oracle.client.replay import Run, greet, run
 from raycert.oracle.client.target import load, target
+from raycert.oracle.client.worker import CODES, flat
 from raycert.oracle.commands import export
 from raycert.oracle.starters import __file__ as starters
 

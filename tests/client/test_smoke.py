@@ -25,9 +25,10 @@ from raycert.cases.model import (
     Union,
 )
 from raycert.cases.protocol import Hello, Pairs, Reply
-from raycert.oracle.client.easy import EASY, Easy, easy
-from raycert.oracle.client.harness import Failure, Limits, Outcome, run
-from raycert.oracle.client.smoke import adapter_faults, limits
+from raycert.oracle.client.dialogue import Limits, Outcome
+from raycert.oracle.client.process import Failure
+from raycert.oracle.client.replay import run
+from raycert.oracle.client.smoke import EASY, Easy, adapter_faults, easy, limits
 
 Point = tuple[Fraction, ...]
 DECLARED = [

@@ -12,10 +12,10 @@ import pytest
 
 from raycert.cases.model import Cylinder, Ray
 from raycert.cases.protocol import Hello, Reply
-from raycert.oracle.client.harness import Limits, Question, Run, Unusable, greet, run
+from raycert.oracle.client.dialogue import Command, Limits, Question, Unusable
 from raycert.oracle.client.inprocess import InProcess
-from raycert.oracle.client.piped import Command
 from raycert.oracle.client.process import Failure
+from raycert.oracle.client.replay import Run, greet, run
 from raycert.oracle.client.target import load, target
 from raycert.reference import tracer
 

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from raycert.cases.protocol import Hello, Reply
 from raycert.oracle.client.process import Failure
-from raycert.oracle.client.values import MOST, outcome
+from raycert.oracle.client.worker import MOST, outcome
 
 PLAIN = Hello("x")
 FIRST, ANY = Hello("x", answers="first"), Hello("x", answers="any")

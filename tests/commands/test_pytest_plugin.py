@@ -10,7 +10,7 @@ import pytest
 from raycert import oracle
 from raycert.cases.corpus import encode_rows, manifest, read_corpus
 from raycert.cases.formats import BINARY64
-from raycert.oracle.client.easy import EASY
+from raycert.oracle.client.smoke import EASY
 
 pytest_plugins = ["pytester"]
 

@@ -4,8 +4,8 @@ from pathlib import Path
 
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, Intersection, Ray, Solid, Sphere
+from raycert.oracle.client.dialogue import Command
 from raycert.oracle.client.inprocess import InProcess
-from raycert.oracle.client.piped import Command
 from raycert.oracle.explain.derive import derive, given
 from raycert.oracle.explain.one_case import ask
 

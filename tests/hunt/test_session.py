@@ -7,9 +7,8 @@ import pytest
 from raycert.cases.model import Ray, Sphere
 from raycert.cases.numbers import Probe
 from raycert.cases.protocol import Reply
-from raycert.oracle.client.dialogue import Limits, Unusable
+from raycert.oracle.client.dialogue import Command, Limits, Unusable
 from raycert.oracle.client.inprocess import InProcess
-from raycert.oracle.client.piped import Command
 from raycert.oracle.client.process import Failure
 from raycert.oracle.hunt.session import Clock, Session, TimeUp
 

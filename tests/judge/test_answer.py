@@ -17,8 +17,7 @@ from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello, Reply
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.verdict import Touches, verdict
-from raycert.oracle.judge.answer import First, YesNo
-from raycert.oracle.judge.hits import first_fault
+from raycert.oracle.judge.answer import First, YesNo, first_fault
 
 Lists = tuple[tuple[float, float], ...]
 

@@ -10,7 +10,7 @@ import pytest
 
 from raycert.cases.corpus import read_corpus
 from raycert.cases.model import Cylinder, Ray
-from raycert.oracle.client.harness import Question
+from raycert.oracle.client.dialogue import Question
 from raycert.oracle.measure.pipe import PipeTiming, asked, time_pipe
 
 CLIENTS = Path(__file__).parents[1] / "clients"

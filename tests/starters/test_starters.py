@@ -23,7 +23,8 @@ from raycert.cases.protocol import Hello, Pairs, Reply
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.verdict import verdict
-from raycert.oracle.client.harness import Outcome, Question, run
+from raycert.oracle.client.dialogue import Outcome, Question
+from raycert.oracle.client.replay import run
 from raycert.oracle.client.target import target
 from raycert.oracle.commands.certify import certify
 from raycert.oracle.commands.harness import MARK, READERS, STARTERS, harness, templates

@@ -18,8 +18,8 @@ from raycert.cases.formats import BINARY64
 from raycert.cases.model import Ray, Solid
 from raycert.cases.protocol import Reply
 from raycert.oracle.client.dialogue import Dialogue, Limits, Question, Target, Unusable, fresh_ids
-from raycert.oracle.client.harness import run
 from raycert.oracle.client.process import Broken
+from raycert.oracle.client.replay import run
 from raycert.oracle.exact.rounding import expected
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.measure.methods.method import (

@@ -6,8 +6,8 @@ question was the first that a fresh process was asked; a failure that does not c
 `unrepeatable`. A value of no meaning that code in a process of ours returns is a failure too, but
 one that harms no other question: nothing is killed or asked again for it.
 
-Here: that replay. Not here: pipes and time (process.py), what is said through them (dialogue.py
-and the two kinds of it), whether an answer is right.
+Here: that replay. Not here: pipes and time (process.py), what is said through them (dialogue.py),
+whether an answer is right.
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from dataclasses import dataclass
 
 from raycert.cases.protocol import Hello
 from raycert.oracle.client.dialogue import (
+    Command,
     Dialogue,
     Limits,
     Outcome,
@@ -27,20 +28,7 @@ from raycert.oracle.client.dialogue import (
     Unusable,
     fresh_ids,
 )
-from raycert.oracle.client.piped import Command
 from raycert.oracle.client.process import Broken, Failure
-
-__all__ = [
-    "Failure",
-    "Interrupted",
-    "Limits",
-    "Outcome",
-    "Question",
-    "Run",
-    "Unusable",
-    "greet",
-    "run",
-]
 
 STARTS = 3
 """A program that gave no hello this many times in a row is not started again."""
@@ -174,16 +162,19 @@ class Replay:
         Returns whether the failure of one of them came again in a fresh process.
         """
         self.kill()
-        self._lost += self._limits.case if failure.kind == "hang" else 0.0
+        self._count_silence(failure)
         self._worst = failure
+        # The one to blame is the oldest without an answer; where none is owed, it failed after its
+        # last answer, which then is the one.
         before = [dialogue.last] if dialogue.last else []
         head, *rest = dialogue.unanswered or before
-        if dialogue.asked == 1:
+        if dialogue.asked == 1:  # nothing came before it: the failure is its own
             self._settle(head, failure)
             return True
         again = self._confirm(head)
         if not again and failure.kind != "hang" and before != [head]:
-            again = any(map(self._confirm, before))  # it may have failed after its answer
+            # Alone the oldest does well: the failure may be an after-effect of the answer before.
+            again = any(map(self._confirm, before))
         for question in rest:
             again = self._single(question) or again
         if not again:
@@ -201,10 +192,10 @@ class Replay:
             dialogue.finish()
         except Broken as broken:
             self.kill()
-            self._lost += self._limits.case if broken.failure.kind == "hang" else 0.0
+            self._count_silence(broken.failure)
             self._settle(question, broken.failure)
             return True
-        self._dialogue = None
+        self._dialogue = None  # it has ended, as `finish` told it to
         self._settle(question, reply)
         return isinstance(reply, Failure)
 
@@ -219,6 +210,9 @@ class Replay:
         self._settle(question, reply)
         self._on_progress(len(self._outcomes))
         return isinstance(reply, Failure)
+
+    def _count_silence(self, failure: Failure) -> None:
+        self._lost += self._limits.case if failure.kind == "hang" else 0.0
 
     def _settle(self, question: Question, outcome: Outcome) -> None:
         """Record an outcome; a later one replaces an earlier one."""

@@ -15,17 +15,9 @@ import pytest
 
 from raycert.cases.model import Cylinder, Ray
 from raycert.cases.protocol import Reply
-from raycert.oracle.client.dialogue import fresh_ids
-from raycert.oracle.client.harness import (
-    Failure,
-    Interrupted,
-    Limits,
-    Question,
-    Run,
-    Unusable,
-    greet,
-    run,
-)
+from raycert.oracle.client.dialogue import Limits, Question, Unusable, fresh_ids
+from raycert.oracle.client.process import Failure
+from raycert.oracle.client.replay import Interrupted, Run, greet, run
 
 CLIENTS = Path(__file__).parents[1] / "clients"
 CAN = Cylinder((0, 0, 0), (0, 0, 1), 1)
