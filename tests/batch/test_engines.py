@@ -28,8 +28,8 @@ BALL = Sphere((0, 0, 0), 1)
 @pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.__name__)
 def test_both_engines_give_the_same_bits_and_counts(family, fmt: Format) -> None:
     dice = np.random.default_rng(11)
-    for _ in range(3):
-        leaves, u, v = family(dice, 700)
+    for _ in range(2):
+        leaves, u, v = family(dice, 300)
         for leaf in leaves:
             one, two = (trace_batch(leaf, u, v, fmt, engine) for engine in ("numpy", "numba"))
             assert one.rungs == two.rungs

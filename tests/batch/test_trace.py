@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from raycert.cases.corpus import read_corpus
 from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
 from raycert.cases.model import Cylinder, Ray, Refused, Solid, Sphere
 from raycert.cases.strategies import scenes
 from raycert.oracle.batch.trace import trace_batch
 from shared.batch_rays import FAMILIES, aligned, beside_ties, far, free, lattice, thin, wrong
+from shared.corpus import golden
 
 
 @pytest.mark.parametrize("fmt", [BINARY64, BINARY32], ids=lambda fmt: fmt.name)
@@ -30,7 +30,7 @@ def test_every_lane_is_the_scalar_oracle_s(family, fmt: Format) -> None:
 @pytest.mark.parametrize("precision", FORMATS)
 def test_golden_rows_come_out_as_expected(precision: str, half: int) -> None:
     grouped: dict[Solid, list] = {}
-    for row in read_corpus(precision).rows:
+    for row in golden(precision).rows:
         grouped.setdefault(row.solid, []).append(row)
     for solid, rows in list(grouped.items())[half::2]:
         u, v = [row.ray.origin for row in rows], [row.ray.direction for row in rows]

@@ -29,6 +29,7 @@ from raycert.cases.corpus import (
 )
 from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
 from raycert.cases.row import GoldenRow, read_row, write_row
+from shared.corpus import golden
 from shared.rows import CAN, RAYS, WRONG, fresh, made, parent, paths, same_kind
 
 SCHEMAS = Path(corpus.__file__).parent / "schemas"
@@ -193,7 +194,7 @@ def test_golden_rows_are_what_the_schema_describes(fmt: Format) -> None:
 
 @both
 def test_golden_rows_are_read_and_written_alike(fmt: Format) -> None:
-    found = read_corpus(fmt.name)
+    found = golden(fmt.name)
     for path in sorted((GOLDEN / fmt.name).glob("*.jsonl")):
         rows = (row for row in found.rows if row.family == path.stem)
         assert encode_rows(rows, fmt) == path.read_bytes()

@@ -10,7 +10,6 @@ from functools import cache
 import pytest
 
 from raycert.cases.case import TIERS, Case, Family
-from raycert.cases.corpus import read_corpus
 from raycert.cases.families import adopted
 from raycert.cases.families.catalog import FAMILIES
 from raycert.cases.families.frames import ALIGNED, OBLIQUE, frames_for
@@ -50,6 +49,7 @@ from raycert.oracle.exact.faces import place
 from raycert.oracle.exact.faces import touch as touch_of
 from raycert.oracle.exact.rounding import expected
 from raycert.oracle.exact.trace import trace
+from shared.corpus import golden
 
 SLUG = re.compile(r"[a-z0-9]+(-[a-z0-9]+)*")
 MODAL = re.compile(r"\b(should|must|can|could|may|might|shall|will|would|ought|cannot)\b", re.I)
@@ -347,7 +347,7 @@ def test_the_lattice_is_what_it_says(solid: Solid, ray: Ray, on: bool) -> None:
 @pytest.mark.parametrize("precision", FORMATS)
 def test_a_touch_on_the_lattice_is_the_whole_of_its_list(precision: str) -> None:
     """So that keeping or dropping it shows as a pair or none, whatever else is answered."""
-    for known in read_corpus(precision).rows:
+    for known in golden(precision).rows:
         if known.tier == "lattice" and any(span.touch for span in known.intervals):
             assert len(known.intervals) == len(known.expected) == 1, known.id
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from raycert.cases.formats import FORMATS, SPELLINGS, Spelling
@@ -17,6 +17,7 @@ from raycert.cases.strategies import rays, solids
 
 @pytest.mark.parametrize("precision", FORMATS)
 @pytest.mark.parametrize("spelling", SPELLINGS)
+@settings(max_examples=25)
 @given(data=st.data(), id=st.text())
 def test_a_line_is_that_of_json(precision: str, spelling: Spelling, data: Any, id: str) -> None:
     fmt = FORMATS[precision]

@@ -16,7 +16,6 @@ from hypothesis import given, settings
 from jsonschema import Draft202012Validator
 
 from raycert.cases import protocol
-from raycert.cases.corpus import read_corpus
 from raycert.cases.formats import BINARY64, FORMATS, SPELLINGS, Spelling
 from raycert.cases.hits import first, hit
 from raycert.cases.model import Cylinder, Ray, Refused, Sphere
@@ -38,6 +37,7 @@ from raycert.cases.serve import answer, serve
 from raycert.cases.strategies import solids
 from raycert.oracle.commands.harness import templates
 from raycert.reference import tracer
+from shared.corpus import golden
 
 SCHEMAS = Path(protocol.__file__).parent / "schemas"
 NAMES = ("hello", "question", "reply")
@@ -89,7 +89,7 @@ def test_every_question_and_answer_of_the_corpus_is_described(
     numbers: Spelling, precision: str
 ) -> None:
     hello = Hello("x", numbers=numbers, precision=precision)
-    for row in read_corpus(precision).rows[::23]:
+    for row in golden(precision).rows[::97]:
         asked = ask(row.id, row.solid, row.ray, numbers, hello.format)
         assert complaint("question", asked) is None
         replies = (
@@ -153,7 +153,7 @@ def test_every_line_of_a_server_is_described(command: list[str], tmp_path: Path)
         for name, data in templates("python"):
             (tmp_path / name).write_bytes(data)
         command = [str(tmp_path / "tracer.py")]
-    rows = read_corpus().rows[::97]
+    rows = golden().rows[::197]
     asked = [ask(row.id, row.solid, row.ray, "decimal", BINARY64) for row in rows]
     lines = b"".join([encode({"hello": 1}), *asked, b"nonsense\n", b'{"id": "9"}\n'])
     ran = subprocess.run([sys.executable, *command], input=lines, capture_output=True, check=True)

@@ -9,8 +9,6 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from raycert import oracle
-from raycert.cases.corpus import Corpus, read_corpus
 from raycert.cases.levels import Level
 from raycert.cases.model import Ray, Solid, type_of
 from raycert.cases.protocol import Hello, Reply
@@ -22,6 +20,7 @@ from raycert.oracle.commands.certify import certify
 from raycert.oracle.zoo import inhabitants
 from raycert.oracle.zoo.inhabitants import BY_NAME
 from raycert.reference.tracer import intersect
+from shared.corpus import golden
 
 Intersect = Callable[[Solid, Ray], Iterable[tuple[float, float]]]
 HELLO = Hello("a tracer")
@@ -29,13 +28,8 @@ SOUND = {animal.name: animal.tracer for animal in inhabitants.SOUND}
 SOLIDS = ("half_space", "slab", "infinite_cylinder", "cylinder")
 
 
-@cache
-def corpus() -> Corpus:
-    return read_corpus()
-
-
 def rows() -> list[GoldenRow]:
-    return [row for row in corpus().rows if type_of(row.solid) in SOLIDS]
+    return [row for row in golden().rows if type_of(row.solid) in SOLIDS]
 
 
 @cache
@@ -134,12 +128,10 @@ def test_nothing_tested_is_never_granted() -> None:
 def client(folder: Path, name: str) -> list[str]:
     """Write a program that serves one of the planted tracers."""
     script = folder / "client.py"
-    here = Path(str(oracle.__file__)).parent.parent
     script.write_text(
-        f"import sys; sys.path.insert(0, {str(here)!r})\n"
-        "from oracle.zoo.inhabitants import BY_NAME\n"
-        "from cases.protocol import Hello\n"
-        "from cases.serve import serve\n"
+        "from raycert.oracle.zoo.inhabitants import BY_NAME\n"
+        "from raycert.cases.protocol import Hello\n"
+        "from raycert.cases.serve import serve\n"
         f"serve({name}, Hello('planted', solids={SOLIDS!r}))\n"
     )
     return [sys.executable, str(script)]
@@ -171,7 +163,7 @@ def test_a_part_of_the_corpus_is_no_certificate(tmp_path: Path) -> None:
     form = json.loads(out.read_text())
     assert form["passed"]
     assert not form["granted"]
-    assert form["not_tested"]["rows"] == len(corpus().rows) - form["tested"]
+    assert form["not_tested"]["rows"] == len(golden().rows) - form["tested"]
 
 
 @pytest.mark.parametrize(
@@ -194,7 +186,7 @@ def test_bad_usage_says_what_is_wrong(
 
 def test_a_tolerance_beyond_c_decides_nothing() -> None:
     """A tolerance that swallows the solid buys no level; a fine one leaves its rows to decide."""
-    rows = [row for row in corpus().rows if row.family == "perpendicular"]
+    rows = [row for row in golden().rows if row.family == "perpendicular"]
     for tolerance, decided in ((1e300, False), (2.0**-40, True)):
         hello = Hello("tolerant", tolerance=tolerance)
         graded = [grade(row, Reply(row.id, intervals=row.expected), hello) for row in rows]
@@ -205,7 +197,7 @@ def test_a_tolerance_beyond_c_decides_nothing() -> None:
 
 
 def test_an_answer_within_the_tolerance_is_stable_and_beyond_it_is_not() -> None:
-    crossed = (r for r in corpus().rows if r.family == "perpendicular" and r.expected)
+    crossed = (r for r in golden().rows if r.family == "perpendicular" and r.expected)
     row = next(row for row in crossed if 0 < row.expected[0][0] < row.expected[0][1] < 99)
     off = tuple((a - 2.0**-41, b + 2.0**-41) for a, b in row.expected)
     for tolerance, right in ((2.0**-36, True), (0.0, False)):

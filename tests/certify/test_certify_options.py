@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -12,16 +11,14 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from raycert import oracle
 from raycert.oracle.commands.certify import certify
 
-HERE = Path(str(oracle.__file__)).parent.parent
 CLIENTS = Path(__file__).parents[1] / "clients"
 
 
 @pytest.fixture(autouse=True)
 def importable(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setenv("PYTHONPATH", f"{HERE}{os.pathsep}{tmp_path}")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     monkeypatch.chdir(tmp_path)
 
 
@@ -37,7 +34,8 @@ def form(name: str = "certificate.json") -> dict[str, Any]:
 def faulty(name: str) -> str:
     """Write a module with a planted fault as a callable; return the target."""
     Path("wrong.py").write_text(
-        f"from oracle.zoo.inhabitants import BY_NAME\nintersect = BY_NAME[{name!r}].make()\n"
+        "from raycert.oracle.zoo.inhabitants import BY_NAME\n"
+        f"intersect = BY_NAME[{name!r}].make()\n"
     )
     return "wrong:intersect"
 
@@ -87,7 +85,7 @@ def test_bad_options_say_what_to_write(options: tuple[str, ...], words: str) -> 
 @pytest.mark.parametrize("mode", ["zero", "exit", "miss"])
 def test_a_first_hit_client_is_granted_and_one_with_the_other_mode_is_not(mode: str) -> None:
     Path("firsts.py").write_text(
-        "from cases.hits import first\nfrom reference.tracer import intersect\n"
+        "from raycert.cases.hits import first\nfrom raycert.reference.tracer import intersect\n"
         f"hello = {{'name': 'firsts', 'answers': 'first', 'from_inside': {mode!r}}}\n"
         f"def good(solid, ray): return first(intersect(solid, ray), {mode!r})\n"
         "def bad(solid, ray):\n"
@@ -104,7 +102,8 @@ def test_a_first_hit_client_is_granted_and_one_with_the_other_mode_is_not(mode: 
 
 def test_a_yes_or_no_client_is_granted() -> None:
     Path("yes.py").write_text(
-        "from reference.tracer import intersect\nhello = {'name': 'yes', 'answers': 'any'}\n"
+        "from raycert.reference.tracer import intersect\n"
+        "hello = {'name': 'yes', 'answers': 'any'}\n"
         "def good(solid, ray): return bool(intersect(solid, ray))\n"
         "def bad(solid, ray): return True\n"
     )
@@ -117,8 +116,8 @@ def test_who_crashes_and_hangs_is_graded_on_all_the_others() -> None:
     """Each hundredth case crashes it, each five-hundredth hangs it, whenever it is asked."""
     Path("rough.py").write_text(
         "import os, sys, time\nfrom zlib import crc32\n"
-        "from cases.protocol import Hello\nfrom cases.serve import serve\n"
-        "from reference.tracer import intersect\n"
+        "from raycert.cases.protocol import Hello\nfrom raycert.cases.serve import serve\n"
+        "from raycert.reference.tracer import intersect\n"
         "def rough(solid, ray):\n"
         "    number = crc32(repr((solid, ray)).encode())\n"
         "    if number % 500 == 1: time.sleep(60)\n"

@@ -5,20 +5,20 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cache
 
-from raycert.cases.corpus import read_corpus
 from raycert.cases.formats import BINARY32
 from raycert.cases.hits import first_end
 from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello, Reply
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.diagnosis import contradictions
 from raycert.oracle.certify.grading import Grade, grade
+from shared.corpus import golden
 
 Say = Callable[[GoldenRow], Reply]
 
 
 @cache
 def rows() -> Sequence[GoldenRow]:
-    return [row for i, row in enumerate(read_corpus().rows) if i % 6 == 0]
+    return [row for i, row in enumerate(golden().rows) if i % 6 == 0]
 
 
 def graded(hello: Hello, say: Say) -> list[Grade]:

@@ -12,7 +12,6 @@ from math import inf, isinf, isnan, nan, nextafter
 import pytest
 
 from raycert.cases.accept import Numbers
-from raycert.cases.corpus import read_corpus
 from raycert.cases.formats import BINARY64
 from raycert.cases.levels import LEVELS
 from raycert.cases.row import GoldenRow
@@ -25,6 +24,7 @@ from raycert.oracle.zoo.fault import Fault, Intersect
 from raycert.oracle.zoo.inhabitants import FAULTS, SOUND
 from raycert.oracle.zoo.matrix import Outcome, Trials
 from raycert.oracle.zoo.tracer import Tracer, crossed, projected, unscaled
+from shared.corpus import golden
 
 SILENT = {
     "zero-radius", "tangents-dropped", "wall-outside", "cap-outside", "rim-dropped",
@@ -39,7 +39,7 @@ TIES = {"union-unmerged", "union-in-order", "difference-open"}
 def rows() -> tuple[GoldenRow, ...]:
     """Return the trees, and a fourth of the leaves."""
     turns = cycle((True, False, False, False))
-    return tuple(r for r in read_corpus().rows if hasattr(r.solid, "of") or next(turns))
+    return tuple(r for r in golden().rows if hasattr(r.solid, "of") or next(turns))
 
 
 @cache

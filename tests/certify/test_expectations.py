@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from raycert.cases.corpus import read_corpus
 from raycert.cases.levels import LEVELS, Level
 from raycert.cases.model import SOLIDS, type_of
 from raycert.cases.protocol import Hello, Reply
@@ -23,6 +22,7 @@ from raycert.oracle.certify.known import (
     record,
     write,
 )
+from shared.corpus import golden
 
 GOOD = """
 [[expect]]
@@ -116,7 +116,7 @@ def test_deep_nesting_is_refused() -> None:
 @cache
 def rows() -> tuple[GoldenRow, ...]:
     """Return decisive rows of two families of spheres and one of cylinders, and two range rows."""
-    corpus = read_corpus()
+    corpus = golden()
     found: list[GoldenRow] = []
     for family in ("sphere-far", "sphere-tangent", "needle", "range-sphere"):
         some = [r for r in corpus.rows if r.family == family and "sound" in r.decisive]
@@ -288,7 +288,7 @@ class Touching:
 
 @cache
 def lattice() -> tuple[GoldenRow, ...]:
-    rows = read_corpus().rows
+    rows = golden().rows
     return tuple(r for r in rows if r.tier == "lattice" and type_of(r.solid) == "sphere")
 
 

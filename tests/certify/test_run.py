@@ -6,14 +6,12 @@ import signal
 import sys
 from contextlib import contextmanager
 from dataclasses import replace
-from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from raycert import oracle
-from raycert.cases.corpus import GOLDEN, MANIFEST, manifest, read_corpus
+from raycert.cases.corpus import GOLDEN, MANIFEST, manifest
 from raycert.oracle.certify.known import Expectation, Expectations
 from raycert.oracle.certify.run import (
     BLOCK,
@@ -30,26 +28,17 @@ from raycert.oracle.certify.verdict import by_family
 from raycert.oracle.client.dialogue import Limits, Unusable
 from raycert.oracle.corpus.fresh import Fresh
 
-HERE = Path(str(oracle.__file__)).parent.parent
 GOOD = (sys.executable, "-m", "raycert.reference")
-READ = cache(read_corpus)
-"""Every test reads the same corpus."""
 FEW = Selection(families=("rim", "far-deep"))
-
-
-@pytest.fixture(autouse=True)
-def importable(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(HERE))
-    monkeypatch.setattr("raycert.oracle.certify.run.read_corpus", READ)
 
 
 def planted(folder: Path, tracer: str, hello: str = "'planted'") -> tuple[str, ...]:
     """Write a program that serves an expression: one of the zoo's tracers, or a function."""
     script = folder / "client.py"
     script.write_text(
-        "from oracle.zoo.inhabitants import BY_NAME\n"
-        "from cases.protocol import Hello\n"
-        "from cases.serve import serve\n"
+        "from raycert.oracle.zoo.inhabitants import BY_NAME\n"
+        "from raycert.cases.protocol import Hello\n"
+        "from raycert.cases.serve import serve\n"
         f"serve({tracer}, Hello({hello}))\n"
     )
     return (sys.executable, str(script))
@@ -203,10 +192,7 @@ def test_not_one_easy_case_answered_is_nothing_tested(tmp_path: Path) -> None:
         certify(Plan(mute, limits=Limits(case=2.0)))
 
 
-def test_an_empty_corpus_is_blamed_on_the_corpus(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("raycert.oracle.certify.run.read_corpus", read_corpus)
+def test_an_empty_corpus_is_blamed_on_the_corpus(tmp_path: Path) -> None:
     (tmp_path / MANIFEST).write_bytes(manifest({}))
     with pytest.raises(Unsuitable, match="no rows in binary64"):
         prepare(Plan(GOOD, golden=tmp_path))

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import pytest
 
-from raycert.cases.corpus import read_corpus
 from raycert.cases.protocol import Hello
 from raycert.oracle.certify.selection import (
     MOST_SHARDS,
@@ -15,8 +14,9 @@ from raycert.oracle.certify.selection import (
     select,
     types,
 )
+from shared.corpus import golden
 
-CORPUS = read_corpus()
+CORPUS = golden()
 EVERY = Hello("every")
 IDS = [row.id for row in CORPUS.rows]
 

@@ -11,7 +11,6 @@ from pathlib import Path
 
 import pytest
 
-from raycert.cases.corpus import read_corpus
 from raycert.cases.model import SOLIDS, Cylinder, Difference, HalfSpace, Ray, Slab, Sphere
 from raycert.cases.protocol import Hello, Reply
 from raycert.oracle.certify.grading import grade
@@ -23,6 +22,7 @@ from raycert.oracle.client.target import load, target
 from raycert.oracle.client.worker import CODES, flat
 from raycert.oracle.commands import export
 from raycert.oracle.starters import __file__ as starters
+from shared.corpus import golden
 
 LIBRARY, C = (Path(starters).parent / name for name in ("library", "c"))
 FLAGS = ["-std=c11", "-shared", "-fPIC", "-O2", "-ffp-contract=off", "-Wall", "-Wextra"]
@@ -82,7 +82,7 @@ def test_the_codes_are_those_of_the_header() -> None:
 
 def test_the_order_is_that_of_the_export() -> None:
     """Token by token: names are codes, digits are numbers, the rest counts parts."""
-    corpus = read_corpus()
+    corpus = golden()
     for row in corpus.rows[::37]:
         tokens = export._solid(row.solid, corpus.format).split()
         words, numbers = [], []
@@ -114,7 +114,7 @@ def starter(tmp_path_factory: pytest.TempPathFactory) -> str:
 
 
 def test_the_starter_is_stable(starter: str) -> None:
-    rows = read_corpus().rows[::29]
+    rows = golden().rows[::29]
     ran = run(target([starter]), [Question(row.id, row.solid, row.ray) for row in rows])
     assert (ran.restarts, ran.notes) == (0, ())
     assert ran.hello.solids == tuple(SOLIDS)

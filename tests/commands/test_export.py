@@ -27,6 +27,7 @@ from raycert.oracle.commands.export import COLUMNS, export, merged_ends
 from raycert.oracle.corpus.golden import write
 from raycert.oracle.exact.rounding import enclose
 from raycert.oracle.judge.levels import Judge
+from shared.corpus import golden as known
 
 UNIT = Cylinder((0, 0, 0), (0, 0, 2), 1)
 TREE = Difference((Sphere((0, 0, 0), 2), Union((UNIT, HalfSpace((0, 0, 0), (1, 0, 0))))))
@@ -146,7 +147,7 @@ def test_the_file_says_what_the_rows_say(golden: Path, precision: str, pack: str
 @pytest.mark.parametrize("precision", FORMATS)
 def test_merged_ends_are_those_of_the_expected_list(precision: str) -> None:
     merged = 0
-    for row in read_corpus(precision).rows:
+    for row in known(precision).rows:
         ends = merged_ends(row)
         assert tuple((enter.nearest, leave.nearest) for enter, leave in ends) == row.expected
         overflows = any(span.enter.up == inf for span in row.intervals)

@@ -3,22 +3,15 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
 
-from raycert.oracle.commands import scenes
 from raycert.oracle.commands.plan import plan
 
 
 def run(*words: str) -> Result:
     return CliRunner().invoke(plan, words)
-
-
-@pytest.fixture(autouse=True)
-def _here(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(Path(scenes.__file__).parents[2]))
 
 
 def test_the_table_says_why_and_why_not(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,18 +3,16 @@
 import sys
 from functools import cache
 from importlib.metadata import entry_points
-from pathlib import Path
 
 import pytest
 
-from raycert import oracle
-from raycert.cases.corpus import encode_rows, manifest, read_corpus
+from raycert.cases.corpus import encode_rows, manifest
 from raycert.cases.formats import BINARY64
 from raycert.oracle.client.smoke import EASY
+from shared.corpus import golden
 
 pytest_plugins = ["pytester"]
 
-HERE = Path(str(oracle.__file__)).parent.parent
 FAMILIES = ("behind", "rim", "start-inside")
 CLIENT = """
 import pathlib, sys
@@ -44,7 +42,7 @@ BAD = "client.py no-clip"
 @cache
 def files() -> dict[str, bytes]:
     """Return a small corpus: the first rows of a few families."""
-    rows = read_corpus().rows
+    rows = golden().rows
     found = {}
     for family in FAMILIES:
         first = [row for row in rows if row.family == family][:25]
@@ -55,7 +53,6 @@ def files() -> dict[str, bytes]:
 @pytest.fixture
 def tester(pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> pytest.Pytester:
     """Return a folder with a client and a small corpus."""
-    monkeypatch.setenv("PYTHONPATH", str(HERE))
     monkeypatch.delenv("PYTEST_ADDOPTS", raising=False)
     for name, data in files().items():
         path = pytester.path / "golden" / name

@@ -24,8 +24,6 @@ def run(*words: str) -> Result:
 
 @pytest.fixture(autouse=True)
 def _here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    root = str(Path(scenes.__file__).parents[2])
-    monkeypatch.setenv("PYTHONPATH", root)
     monkeypatch.chdir(tmp_path)
 
 

@@ -18,6 +18,7 @@ from raycert.oracle.corpus.golden import Contradiction, compare, golden_row, kno
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.surd import INFINITY, Surd, fraction
 from raycert.oracle.witness.verdict import WITNESSES, Verdict
+from shared.corpus import golden
 
 CAN = Cylinder((0, 0, 0), (0, 0, 2), 1)
 ACROSS = Ray((-3, 0, 1), (1, 0, 0))
@@ -208,7 +209,7 @@ def test_a_failure_while_writing_leaves_no_half_file(
 @pytest.mark.parametrize("fmt", FORMATS.values(), ids=FORMATS)
 def test_in_the_golden_files_every_expected_list_is_accepted(fmt: Format) -> None:
     """And the empty list is refused wherever inner is not empty: the files alone tell."""
-    for row in read_corpus(fmt.name).rows:
+    for row in golden(fmt.name).rows:
         for accept in row.accept.values():
             assert accept.fault(row.expected) is None, row.id
             assert (accept.fault([]) is None) == (not accept.inner), row.id

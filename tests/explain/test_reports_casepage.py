@@ -21,6 +21,7 @@ from raycert.oracle.explain.one_case import Asked
 from raycert.oracle.reports.plane import dot
 from raycert.oracle.reports.views import views
 from shared.browser import probed
+from shared.corpus import golden
 
 CAN = Cylinder((0.0, 0.0, 0.0), (0.0, 0.0, 2.0), 1.0)
 RAY = Ray((-3.0, 0.3, 0.2), (1.0, 0.0, 0.3))
@@ -160,7 +161,7 @@ def test_any_answer_is_drawn(pairs: tuple[tuple[float, float], ...]) -> None:
 
 
 def test_every_tier_and_type_of_the_corpus_has_a_page() -> None:
-    rows = {(row.tier, type(row.solid)): row for row in made_up.corpus().rows}
+    rows = {(row.tier, type(row.solid)): row for row in golden().rows}
     assert len(rows) > 20
     for row in rows.values():
         derivation = derive(as_given(row), BINARY64, row.family)

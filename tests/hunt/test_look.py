@@ -4,7 +4,6 @@ from math import inf
 
 import pytest
 
-from raycert.cases.corpus import read_corpus
 from raycert.cases.levels import LEVELS
 from raycert.cases.model import HalfSpace, Ray, Sphere, Union
 from raycert.cases.numbers import Probe
@@ -15,8 +14,9 @@ from raycert.oracle.hunt.look import RIGHT, Criterion, Looker
 from raycert.oracle.zoo.inhabitants import BY_NAME
 from raycert.oracle.zoo.matrix import Outcome
 from raycert.oracle.zoo.tracer import BASE
+from shared.corpus import golden
 
-ROWS = [row for row in read_corpus().rows if row.tier in ("generic", "stiff")][::97]
+ROWS = [row for row in golden().rows if row.tier in ("generic", "stiff")][::97]
 HELLO = Hello("test")
 TOUCHING = Probe(Sphere((0, 0, 0), 1), Ray((-3, 1, 0), (1, 0, 0)))
 BALL = Probe(Sphere((0, 0, 0), 1), Ray((-3, 0, 0), (1, 0, 0)))

@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from raycert.cases.corpus import read_corpus
 from raycert.cases.hits import first
 from raycert.cases.levels import LEVELS
 from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello, Reply
@@ -18,6 +17,7 @@ from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.verdict import Touches, verdict
 from raycert.oracle.judge.answer import First, YesNo, first_fault
+from shared.corpus import golden
 
 Lists = tuple[tuple[float, float], ...]
 
@@ -95,7 +95,7 @@ def test_what_is_right_stays_right_when_the_lists_part(
 @cache
 def rows() -> tuple[GoldenRow, ...]:
     """Return every seventh row, and every row of the lattice and of its starts."""
-    every = read_corpus().rows
+    every = golden().rows
     return tuple(r for i, r in enumerate(every) if i % 7 == 0 or r.tier == "lattice")
 
 

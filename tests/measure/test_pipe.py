@@ -8,14 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from raycert.cases.corpus import read_corpus
 from raycert.cases.model import Cylinder, Ray
 from raycert.oracle.client.dialogue import Question
 from raycert.oracle.measure.pipe import PipeTiming, asked, time_pipe
+from shared.corpus import golden
 
 CLIENTS = Path(__file__).parents[1] / "clients"
 TRIVIAL = [sys.executable, str(CLIENTS / "trivial.py")]
-QUESTIONS = [Question(row.id, row.solid, row.ray) for row in read_corpus().rows[::20]]
+QUESTIONS = [Question(row.id, row.solid, row.ray) for row in golden().rows[::20]]
 
 
 def test_the_lines_are_a_hello_and_the_questions() -> None:

@@ -2,22 +2,15 @@
 
 import sys
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
-from raycert import oracle
 from raycert.oracle.client.dialogue import Unusable
 from raycert.oracle.client.target import target
 from raycert.oracle.measure.stress import compare as module
 from raycert.oracle.measure.stress.compare import BESIDE, compare, picture, plan
 from raycert.oracle.measure.stress.run import Plan, run
 from raycert.oracle.measure.stress.sweeps import SWEEPS
-
-
-@pytest.fixture(autouse=True)
-def importable(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(Path(str(oracle.__file__)).parent.parent))
 
 
 def short(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,7 +13,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from raycert.cases.corpus import read_corpus
 from raycert.cases.model import (
     Cylinder,
     Difference,
@@ -32,6 +31,7 @@ from raycert.reference import tracer
 from raycert.reference.arrays.bundle import PLAIN, Switches
 from raycert.reference.arrays.tracer import BLOCK, QUICK, intersect, joined
 from raycert.reference.intervals import Pairs
+from shared.corpus import golden
 
 WAYS = [PLAIN, QUICK, Switches(axis=True), Switches(shared=True), Switches(misses=True)]
 WAYS += [Switches(lists=False), Switches(caps=False)]
@@ -57,7 +57,7 @@ def assert_same(solid: Solid, rays: list[Ray], switches: Switches = QUICK) -> No
 @pytest.mark.parametrize("switches", [PLAIN, QUICK], ids=["plain", "quick"])
 def test_every_golden_row(precision: str, switches: Switches) -> None:
     rays = defaultdict(list)
-    for row in read_corpus(precision).rows:
+    for row in golden(precision).rows:
         rays[row.solid].append(row.ray)
     assert sum(map(len, rays.values())) > 5000
     for solid, those in rays.items():

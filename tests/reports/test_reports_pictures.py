@@ -87,7 +87,7 @@ def test_the_solid_on_the_ray_is_the_exact_list() -> None:
         beside = (0.0, pixel / 50, -pixel / 50)  # a ray in a face may be a rounding off it
         assert any(alike(drawn(view, y), inside, pixel / 2) for y in beside), row.id
         checked += 1
-    assert checked > 100
+    assert checked > 60
 
 
 def test_the_planes_are_square_to_the_ray_and_the_exact_ends_are_in_the_picture() -> None:

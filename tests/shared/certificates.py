@@ -5,7 +5,6 @@ from collections.abc import Callable, Iterable
 from functools import cache
 from typing import Any
 
-from raycert.cases.corpus import Corpus, read_corpus
 from raycert.cases.levels import Level
 from raycert.cases.model import Ray, Solid
 from raycert.cases.protocol import Hello, Reply
@@ -17,6 +16,7 @@ from raycert.oracle.certify.selection import Left
 from raycert.oracle.certify.verdict import verdict
 from raycert.oracle.client.process import Failure
 from raycert.oracle.zoo.inhabitants import BY_NAME
+from shared.corpus import golden
 
 Json = dict[str, Any]
 Outcome = Reply | Failure
@@ -24,12 +24,7 @@ HOSTILE = (
     "<script>document.title='owned'</script></title><img src=x onerror=alert(1)> \u202eRTL \x00 "
     "\ud800 \x1b[31m ``` | ]]> [/red] e" + "\u0301" * 50
 )
-STEP = 20
-
-
-@cache
-def corpus() -> Corpus:
-    return read_corpus()
+STEP = 60
 
 
 @cache
@@ -37,7 +32,7 @@ def sample() -> tuple[GoldenRow, ...]:
     """Return some rows of every family."""
     seen: dict[str, int] = {}
     taken = []
-    for row in corpus().rows:
+    for row in golden().rows:
         n = seen[row.family] = seen.get(row.family, -1) + 1
         if n % STEP == 0:
             taken.append(row)
@@ -96,7 +91,7 @@ def made(
     ran = Ran(1, ("a note",), 1.25, interrupted, "2026-01-02T03:04:05+00:00", ("likely this",))
     judged = verdict(grades, level, "closed")
     form = certificate(
-        asked, hello, corpus(), grades, Left((), 0), ran, judged, environment(), **more
+        asked, hello, golden(), grades, Left((), 0), ran, judged, environment(), **more
     )
     read: Json = json.loads(json.dumps(form, allow_nan=False))
     return read

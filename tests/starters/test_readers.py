@@ -17,7 +17,7 @@ import pytest
 from click.testing import CliRunner
 
 from raycert.cases.accept import Numbers
-from raycert.cases.corpus import GOLDEN, Corpus, read_corpus
+from raycert.cases.corpus import GOLDEN
 from raycert.cases.formats import BINARY32, FORMATS
 from raycert.cases.levels import LEVELS
 from raycert.cases.protocol import TOUCHES, Hello, Reply, convention, encode, write_hello
@@ -30,6 +30,7 @@ from raycert.oracle.judge.levels import Judge
 from raycert.oracle.zoo.fault import Intersect
 from raycert.oracle.zoo.inhabitants import FAULTS, SOUND
 from raycert.oracle.zoo.matrix import Outcome
+from shared.corpus import golden
 
 Respond = Callable[[GoldenRow], Numbers | None]
 
@@ -104,7 +105,7 @@ def changed_ones(precision: str) -> Iterator[Subject]:
     Every change is made to a third of the rows; each of them is another in the next row.
     """
     for i in range(0, len(CHANGES), 3):
-        place = {row.id: i + n for n, row in enumerate(corpus(precision).rows)}
+        place = {row.id: i + n for n, row in enumerate(golden(precision).rows)}
 
         def respond(row: GoldenRow, place: dict[str, int] = place) -> Numbers | None:
             change = CHANGES[place[row.id] % len(CHANGES)]
@@ -132,11 +133,6 @@ def needs(tool: str) -> str:
             pytest.fail(missing)
         pytest.skip(missing)
     return path
-
-
-@cache
-def corpus(precision: str) -> Corpus:
-    return read_corpus(precision)
 
 
 @cache
@@ -229,7 +225,7 @@ class Run:
     def add(self, subject: Subject) -> None:
         """Write what a subject answers, and remember what it is granted."""
         name, hello = subject.hello.name, subject.hello
-        answers = [(row, subject.respond(row)) for row in corpus(self.precision).rows]
+        answers = [(row, subject.respond(row)) for row in golden(self.precision).rows]
         dropped = [kind for kind, keeps in convention(hello.convention).items() if not keeps]
         drops = f"drops {len(dropped)} {' '.join(dropped)}\n" if dropped else ""
         texts = (self.memory.text(row, answer, hello) for row, answer in answers)
@@ -337,7 +333,7 @@ def readers(tmp_path_factory: pytest.TempPathFactory) -> Readers:
 def right(bits: bool = True) -> tuple[str, bytes]:
     """Return the expected answers to the family, in both forms."""
     hello, memory = Hello("right", numbers="bits" if bits else "decimal"), Memory()
-    rows = [row for row in corpus("binary64").rows if row.family == FAMILY]
+    rows = [row for row in golden("binary64").rows if row.family == FAMILY]
     text = "".join(memory.text(row, row.expected, hello) for row in rows)
     lines = b"".join(memory.line(row, row.expected, hello) for row in rows)
     return text, write_hello(hello) + lines
@@ -346,7 +342,7 @@ def right(bits: bool = True) -> tuple[str, bytes]:
 def test_a_changed_digit_changes_the_verdict(readers: Readers) -> None:
     text, lines = right()
     assert readers.judge(text, lines) == [(0, "exact")] * 2
-    row = next(row for row in corpus("binary64").rows if row.family == FAMILY and row.expected)
+    row = next(row for row in golden("binary64").rows if row.family == FAMILY and row.expected)
     assert row.expected[0][0] > 0
     bits = Hello("x").format.bits(row.expected[0][0])
     assert text.count(bits) == 1

@@ -17,7 +17,8 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from raycert.cases.corpus import Corpus, read_corpus
+from raycert.cases.corpus import MANIFEST, encode_rows, manifest, write_whole
+from raycert.cases.formats import BINARY64
 from raycert.cases.model import SOLIDS, Vector
 from raycert.cases.protocol import Hello, Pairs, Reply
 from raycert.cases.row import GoldenRow
@@ -29,6 +30,7 @@ from raycert.oracle.client.target import target
 from raycert.oracle.commands.certify import certify
 from raycert.oracle.commands.harness import MARK, READERS, STARTERS, harness, templates
 from raycert.reference import quadratic, tracer
+from shared.corpus import golden
 
 each = pytest.mark.parametrize("lang", STARTERS)
 END = b"---- to here ----"
@@ -68,11 +70,6 @@ def build(lang: str, folder: Path) -> list[str]:
 
 
 @cache
-def corpus() -> Corpus:
-    return read_corpus()
-
-
-@cache
 def graded(row: str, pairs: Pairs) -> Grade:
     """Return the grade of an answer; the starters answer alike, so few rows are graded twice."""
     return grade(rows()[row], Reply(row, intervals=pairs), Hello("a starter"))
@@ -80,12 +77,12 @@ def graded(row: str, pairs: Pairs) -> Grade:
 
 @cache
 def rows() -> dict[str, GoldenRow]:
-    return {row.id: row for row in corpus().rows}
+    return {row.id: row for row in golden().rows}
 
 
 def answers(command: list[str]) -> dict[str, Pairs]:
     """Return what an implementation answers to the whole corpus, through the protocol."""
-    ran = run(target(command), [Question(row.id, row.solid, row.ray) for row in corpus().rows])
+    ran = run(target(command), [Question(row.id, row.solid, row.ray) for row in golden().rows])
     assert not ran.restarts
     assert not ran.notes
     assert ran.hello.solids == tuple(SOLIDS)
@@ -107,7 +104,7 @@ def scaled_norm(a: Vector) -> float:
 
 def unlike(subject: dict[str, Pairs]) -> dict[str, tuple[Pairs, Pairs]]:
     """Return where answers are not those of the reference, bit for bit (-0 is never answered)."""
-    truth = {row.id: tuple(tracer.intersect(row.solid, row.ray)) for row in corpus().rows}
+    truth = {row.id: tuple(tracer.intersect(row.solid, row.ray)) for row in golden().rows}
     return {
         id: (truth[id], pairs) for id, pairs in subject.items() if repr(truth[id]) != repr(pairs)
     }
@@ -123,7 +120,7 @@ def test_a_starter_is_stable_and_is_the_reference_to_the_bit(
     grades = [graded(id, pairs) for id, pairs in answered.items()]
     judged = verdict(grades, "stable", "closed")
     assert judged.granted, judged.reasons
-    assert {row.tier for row in corpus().rows} == {"lattice", "generic", "stiff", "range"}
+    assert {row.tier for row in golden().rows} == {"lattice", "generic", "stiff", "range"}
     if lang != "python":
         monkeypatch.setattr(quadratic, "norm", scaled_norm)
         monkeypatch.setattr(tracer, "norm", scaled_norm)
@@ -133,14 +130,19 @@ def test_a_starter_is_stable_and_is_the_reference_to_the_bit(
 
 
 def test_the_printed_command_certifies(tmp_path: Path) -> None:
+    """Against a corpus of every fortieth row, so that it is a certificate."""
     command = build("c", tmp_path) if write("c", tmp_path) else []
+    few = {"binary64/few.jsonl": encode_rows(golden().rows[::40], BINARY64)}
+    for name, data in (few | {MANIFEST: manifest(few)}).items():
+        write_whole(tmp_path / "golden" / name, data)
     certificate = tmp_path / "certificate.json"
-    options = ["--level", "stable", "--out", str(certificate), "--", *command]
+    options = ["--level", "stable", "--golden", str(tmp_path / "golden")]
+    options += ["--out", str(certificate), "--", *command]
     result = CliRunner().invoke(certify, options)
     assert result.exit_code == 0, result.output
     form = json.loads(certificate.read_text())
     assert form["granted"]
-    assert form["tested"] == len(corpus().rows)
+    assert form["tested"] == len(golden().rows[::40])
 
 
 def talk(command: list[str], lines: list[str]) -> list[dict[str, Any]]:

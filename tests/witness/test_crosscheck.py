@@ -8,7 +8,6 @@ from dataclasses import replace
 import pytest
 from click.testing import CliRunner
 
-from raycert.cases.corpus import read_corpus
 from raycert.cases.draw import fresh
 from raycert.cases.model import Cylinder, Difference, Ray, Slab, Sphere, Union, leaves
 from raycert.cases.table import PROBLEM_2, Row, Signs
@@ -23,6 +22,7 @@ from raycert.oracle.witness import crosscheck as crosschecks
 from raycert.oracle.witness import verdict as verdicts
 from raycert.oracle.witness.crosscheck import Question, Summary, check, crosscheck
 from raycert.oracle.witness.verdict import WITNESSES, Verdict, load
+from shared.corpus import golden
 
 EXACT = ("definition", "enclosure", "symbols")
 CAN = Cylinder((0, 0, 0), (0, 0, 2), 1)
@@ -219,7 +219,7 @@ def test_command_names_the_extra_to_install(monkeypatch: pytest.MonkeyPatch) -> 
 def test_every_golden_row_has_the_word_of_two_witnesses(name: str, precision: str) -> None:
     """Not only when it was written: with the oracle and the witness as they are now."""
     witness = load(name)
-    rows = read_corpus(precision).rows
+    rows = golden(precision).rows
     found = {
         row.id: witness(row.solid, row.ray, trace(row.solid, row.ray).intervals) for row in rows
     }

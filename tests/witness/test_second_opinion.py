@@ -1,4 +1,4 @@
-"""The oracle agrees with a second computation that shares no code with it, on every golden row."""
+"""The oracle agrees with a second computation that shares no code with it."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import shared.second_opinion as other
-from raycert.cases.corpus import read_corpus
 from raycert.cases.formats import BINARY64, FORMATS, Format
 from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Leaf, Ray, Slab, Solid, Tree
 from raycert.cases.row import GoldenRow
 from raycert.oracle.judge.levels import Judge
+from shared.corpus import golden
 from shared.grid import leaves, rays
 
 both = pytest.mark.parametrize("fmt", FORMATS.values(), ids=FORMATS)
@@ -34,10 +34,11 @@ def disagreements(rows: tuple[GoldenRow, ...], fmt: Format) -> Iterator[str]:
 
 
 @both
-def test_every_golden_row_has_a_second_opinion(fmt: Format) -> None:
-    corpus = read_corpus(fmt.name)
-    assert len(corpus.rows) > 100
-    assert list(islice(disagreements(corpus.rows, fmt), 5)) == []
+def test_golden_rows_have_a_second_opinion(fmt: Format) -> None:
+    """Every fifth; the two witnesses of `test_crosscheck` speak of every row."""
+    rows = golden(fmt.name).rows[::5]
+    assert len(rows) > 1000
+    assert list(islice(disagreements(rows, fmt), 5)) == []
 
 
 @settings(deadline=None)
@@ -78,7 +79,7 @@ def test_the_oracle_agrees_on_numbers_of_every_size(
 
 def test_a_wrong_golden_row_is_noticed() -> None:
     """One ulp in one endpoint."""
-    row = next(r for r in read_corpus().rows if r.expected and 0 < r.expected[0][0] < inf)
+    row = next(r for r in golden().rows if r.expected and 0 < r.expected[0][0] < inf)
     (enter, leave), *rest = row.expected
     wrong = ((nextafter(enter, 0), leave), *rest)
     altered = GoldenRow(**{n: getattr(row, n) for n in row.__slots__} | {"expected": wrong})

@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from raycert.cases.corpus import Corpus, read_corpus
 from raycert.cases.protocol import Hello, Reply
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import Grade, grade
@@ -22,19 +21,15 @@ from raycert.oracle.zoo.fault import Fault, ProcessFault, Sound, fault
 from raycert.oracle.zoo.inhabitants import BY_NAME, FAULTS, PROCESS, SOUND
 from raycert.oracle.zoo.matrix import Outcome, Trials, kind, line
 from raycert.oracle.zoo.tracer import BASE
+from shared.corpus import golden
 
 HARMLESS = fault("harmless", "does nothing wrong", "nowhere", "behind", "missed")
 TESTS = Path(__file__).parents[1]
 
 
 @cache
-def corpus(precision: str = "binary64") -> Corpus:
-    return read_corpus(precision)
-
-
-@cache
 def bench() -> Trials:
-    return Trials(corpus().rows, corpus().format)
+    return Trials(golden().rows, golden().format)
 
 
 def test_the_zoo_is_large_and_each_name_is_one():
@@ -58,7 +53,7 @@ def test_a_fault_is_refused_by_its_home_for_its_own_reason(planted: Fault):
 def test_no_two_faults_are_the_same():
     """Those that answer a few rows alike are asked more; nobody is asked what tells nothing."""
     alike = [list(FAULTS)]
-    for some in (corpus().rows[::40], corpus().rows[1::5], corpus().rows):
+    for some in (golden().rows[::40], golden().rows[1::5], golden().rows):
         alike = [group for one in alike for group in told_apart(one, some)]
     assert alike == []
 
@@ -68,7 +63,7 @@ def told_apart(faults: list[Fault], rows: Sequence[GoldenRow]) -> list[list[Faul
     groups: dict[str, list[Fault]] = {}
     for planted in faults:
         tracer = planted.make()
-        answers = repr([Outcome.of(tracer, row, corpus().format).answer for row in rows])
+        answers = repr([Outcome.of(tracer, row, golden().format).answer for row in rows])
         groups.setdefault(answers, []).append(planted)
     return [group for group in groups.values() if len(group) > 1]
 
@@ -77,7 +72,7 @@ def graded(sound: Sound) -> list[Grade]:
     """Return the grades of a sound tracer, asked as a client that declares what it is."""
     hello = Hello(sound.name, precision=sound.precision, convention=sound.convention)
     grades = []
-    for row in corpus(sound.precision).rows:
+    for row in golden(sound.precision).rows:
         outcome = Outcome.of(sound.tracer, row, hello.format)
         if outcome.answer is not None or row.tier != "range":
             assert outcome.answer is not None, (row.id, outcome.error)
@@ -97,8 +92,8 @@ def test_a_sound_tracer_is_granted_what_it_deserves_and_no_more(sound: Sound):
 
 
 def test_the_base_is_granted_every_row_the_range_included():
-    for row in corpus().rows:
-        outcome = Outcome.of(BASE, row, corpus().format)
+    for row in golden().rows:
+        outcome = Outcome.of(BASE, row, golden().format)
         assert outcome.answer is not None, (row.id, outcome.error)
         assert bench().refusal(row, outcome, outcome) is None, row.id
 

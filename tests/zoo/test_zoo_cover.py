@@ -6,7 +6,6 @@ from functools import cache
 
 import pytest
 
-from raycert.cases.corpus import Corpus, read_corpus
 from raycert.cases.model import type_of
 from raycert.cases.protocol import Hello
 from raycert.oracle.certify.selection import Selection, select
@@ -15,25 +14,21 @@ from raycert.oracle.zoo.fault import Fault
 from raycert.oracle.zoo.inhabitants import FAULTS
 from raycert.oracle.zoo.matrix import Trials, line
 from raycert.oracle.zoo.smoke import smoke
+from shared.corpus import golden
 
 PRECISIONS = ("binary64", "binary32")
 
 
 @cache
 def bench(precision: str) -> Trials:
-    rows, _ = select(corpus(precision), Hello("all"), Selection(smoke=True))
-    return Trials(rows, corpus(precision).format)
-
-
-@cache
-def corpus(precision: str) -> Corpus:
-    return read_corpus(precision)
+    rows, _ = select(golden(precision), Hello("all"), Selection(smoke=True))
+    return Trials(rows, golden(precision).format)
 
 
 @pytest.mark.parametrize("precision", PRECISIONS)
 def test_the_smoke_rows_are_few_and_of_every_family(precision: str) -> None:
     ids = smoke(precision)
-    rows = {row.id: row for row in corpus(precision).rows}
+    rows = {row.id: row for row in golden(precision).rows}
     assert len(set(ids)) == len(ids) <= MOST
     assert set(ids) <= set(rows)
     assert {id.partition("/")[0] for id in ids} == {row.family for row in rows.values()}
@@ -50,7 +45,7 @@ def test_the_smoke_rows_refuse_every_fault_at_its_level(planted: Fault) -> None:
 def test_the_rows_are_a_cover_of_what_they_serve() -> None:
     """What is chosen for a fault is a row that refuses it at the lowest level of its type."""
     fault = FAULTS[0]
-    found = line(Trials(corpus("binary64").rows[::3], corpus("binary64").format), fault)
+    found = line(Trials(golden("binary64").rows[::3], golden("binary64").format), fault)
     needs = {need for _, need in served(fault, found.refusals)}
     assert needs == {(fault.name, type_of(r.row.solid)) for r in found.refusals}
     assert len(served(fault, found.refusals)) <= len(found.refusals)
@@ -63,7 +58,7 @@ def test_the_choice_is_greedy_and_whole() -> None:
 
 
 def test_a_selection_of_smoke_is_just_these_and_says_so() -> None:
-    rows, left = select(corpus("binary64"), Hello("all"), Selection(smoke=True))
+    rows, left = select(golden("binary64"), Hello("all"), Selection(smoke=True))
     assert tuple(row.id for row in rows) == smoke("binary64")
-    assert left.rows == len(corpus("binary64").rows) - len(rows)
+    assert left.rows == len(golden("binary64").rows) - len(rows)
     assert Selection(smoke=True).options() == ("--smoke",)
