@@ -22,7 +22,7 @@ from raycert.oracle.batch.lanes import HIT, INTEGER, RUNGS, UNSURE, Codes, Float
 from raycert.oracle.batch.narrow import narrowed, set_aside
 from raycert.oracle.batch.plan import Plan, plan
 from raycert.oracle.batch.rational import rational
-from raycert.oracle.exact.rounding import expected
+from raycert.oracle.exact.intervals import expected
 from raycert.oracle.exact.trace import trace
 
 BLOCK = 65536

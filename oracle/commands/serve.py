@@ -42,7 +42,7 @@ def _serve_oracle(precision: str, numbers: Any) -> None:
     from raycert.cases.formats import FORMATS
     from raycert.cases.protocol import Hello
     from raycert.cases.serve import serve
-    from raycert.oracle.exact.rounding import expected
+    from raycert.oracle.exact.intervals import expected
     from raycert.oracle.exact.trace import trace
 
     def intersect(solid: Solid, ray: Ray) -> tuple[tuple[float, float], ...]:

@@ -10,6 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from functools import reduce
 
+from raycert.cases.accept import Numbers
+from raycert.cases.formats import Format
+from raycert.oracle.exact.rounding import nearest
 from raycert.oracle.exact.surd import INFINITY, ZERO, Surd
 
 Interval = tuple[Surd, Surd]
@@ -99,3 +102,13 @@ def contains(outer: Intervals, inner: Intervals) -> bool:
 def meets(one: Interval, two: Interval) -> bool:
     """Tell whether two closed intervals have a point in common."""
     return max(one[0], two[0]) <= min(one[1], two[1])
+
+
+def expected(intervals: Intervals, fmt: Format) -> tuple[Intervals, Numbers]:
+    """Return a list with the pairs joined that touch after rounding: exactly, and rounded."""
+    exact, near = list(intervals), [(nearest(a, fmt), nearest(b, fmt)) for a, b in intervals]
+    for i in range(len(near) - 1, 0, -1):
+        if near[i][0] <= near[i - 1][1]:
+            exact[i - 1 : i + 1] = [(exact[i - 1][0], exact[i][1])]
+            near[i - 1 : i + 1] = [(near[i - 1][0], near[i][1])]
+    return tuple(exact), tuple(near)

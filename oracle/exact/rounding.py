@@ -11,12 +11,35 @@ as one sticky bit, so ties, subnormals and overflow need no further precision.
 from __future__ import annotations
 
 from math import inf, isqrt, ldexp
-from typing import NamedTuple
+from typing import NamedTuple, Protocol, Self
 
-from raycert.cases.accept import Numbers
 from raycert.cases.formats import Format
-from raycert.oracle.exact.intervals import Intervals
-from raycert.oracle.exact.surd import Surd
+
+
+class Quadratic(Protocol):
+    """(x + y sqrt(d)) / z in integers: a `Surd`, or infinity."""
+
+    @property
+    def x(self) -> int:
+        """Return the rational part."""
+
+    @property
+    def y(self) -> int:
+        """Return the factor of the root."""
+
+    @property
+    def d(self) -> int:
+        """Return what is under the root, >= 0."""
+
+    @property
+    def z(self) -> int:
+        """Return the denominator, > 0; 0 for infinity."""
+
+    def sign(self) -> int:
+        """Return the sign of the number."""
+
+    def __neg__(self) -> Self:
+        """Return the negative."""
 
 
 class Rounded(NamedTuple):
@@ -27,7 +50,7 @@ class Rounded(NamedTuple):
     up: float
 
 
-def _scaled_floor(v: Surd, numerator: int, denominator: int) -> tuple[int, bool]:
+def _scaled_floor(v: Quadratic, numerator: int, denominator: int) -> tuple[int, bool]:
     """Return floor(v * numerator / denominator) and whether that is exact."""
     square = v.y * v.y * v.d * numerator * numerator
     root = isqrt(square)
@@ -38,12 +61,12 @@ def _scaled_floor(v: Surd, numerator: int, denominator: int) -> tuple[int, bool]
     return quotient, exact and not rest
 
 
-def floor_shifted(v: Surd, shift: int) -> tuple[int, bool]:
+def floor_shifted(v: Quadratic, shift: int) -> tuple[int, bool]:
     """Return floor(v * 2^shift) and whether that is exact."""
     return _scaled_floor(v, 1 << shift, 1) if shift >= 0 else _scaled_floor(v, 1, 1 << -shift)
 
 
-def exponent(v: Surd) -> int:
+def exponent(v: Quadratic) -> int:
     """Return e with 2^(e-3) < |v| < 2^(e+3), v finite and not 0.
 
     Where x and y sqrt(d) cancel, |v| = |x^2 - y^2 d| / (z (|x| + |y| sqrt(d))).
@@ -55,18 +78,18 @@ def exponent(v: Surd) -> int:
     return top - v.z.bit_length()
 
 
-def enclose(v: Surd, fmt: Format) -> Rounded:
+def enclose(v: Quadratic, fmt: Format) -> Rounded:
     """Return the three roundings of v to the format; all equal where v is one of its numbers.
 
     Beyond the largest finite number, `up` is infinite and `down` the largest number; `nearest`
     overflows as IEEE 754 says, from the midpoint above the largest number on.
     """
-    if not v.finite:
+    if not v.z:
         return Rounded(inf, inf, inf)
     shift = -max(exponent(v) - fmt.precision - 6, fmt.least - 2)
     floor, exact = floor_shifted(v, shift)
     if floor < 0:
-        mirrored = enclose(Surd(-v.x, -v.y, v.d, v.z), fmt)
+        mirrored = enclose(-v, fmt)
         return Rounded(-mirrored.up, -mirrored.nearest, -mirrored.down)
     if exact and not floor:
         return Rounded(0.0, 0.0, 0.0)
@@ -90,34 +113,25 @@ def _number(significand: int, lsb: int, fmt: Format) -> float:
     return ldexp(significand, lsb)
 
 
-def expected(intervals: Intervals, fmt: Format) -> tuple[Intervals, Numbers]:
-    """Return a list with the pairs joined that touch after rounding: exactly, and rounded."""
-    exact, near = list(intervals), [(nearest(a, fmt), nearest(b, fmt)) for a, b in intervals]
-    for i in range(len(near) - 1, 0, -1):
-        if near[i][0] <= near[i - 1][1]:
-            exact[i - 1 : i + 1] = [(exact[i - 1][0], exact[i][1])]
-            near[i - 1 : i + 1] = [(near[i - 1][0], near[i][1])]
-    return tuple(exact), tuple(near)
-
-
-def nearest(v: Surd, fmt: Format) -> float:
+def nearest(v: Quadratic, fmt: Format) -> float:
     """Return v rounded to nearest even."""
     return enclose(v, fmt).nearest
 
 
-def decimal(v: Surd, digits: int = 40) -> str:
+def decimal(v: Quadratic, digits: int = 40) -> str:
     """Return v in scientific notation with this many significant digits, rounded to nearest.
 
-    >>> decimal(Surd(0, 1, 2, 1), 12)
+    >>> from raycert.oracle.exact.surd import Surd
+    >>> decimal(Surd(0, 1, 2), 12)
     '1.41421356237e+0'
     """
-    if not v.finite:
+    if not v.z:
         return "inf"
     sign = v.sign()
     if sign == 0:
         return "0"
     if sign < 0:
-        return "-" + decimal(Surd(-v.x, -v.y, v.d, v.z), digits)
+        return "-" + decimal(-v, digits)
     power = exponent(v) * 1233 // 4096 - 2  # 1233/4096 = log10(2); never too high
     while True:
         shift = digits - 1 - power

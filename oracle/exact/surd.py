@@ -9,8 +9,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import total_ordering
-from math import gcd, isqrt
+from math import gcd, inf, isnan, isqrt
+from numbers import Rational, Real
+from typing import Any, TypeAlias
+
+from raycert.cases.formats import BINARY64
+from raycert.oracle.exact.rounding import decimal, enclose
+
+Number: TypeAlias = "Surd | Fraction | float"
 
 
 def sign(n: int) -> int:
@@ -41,18 +47,24 @@ def sign_2(a: int, b: int, d: int, c: int, e: int) -> int:
     return s * sign_1(a * a + b * b * d - c * c * e, 2 * a * b, d) if s else r
 
 
-@total_ordering
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Surd:
     """(x + y sqrt(d)) / z with d >= 0 and z > 0; z = 0 (then x = 1, y = d = 0) is infinity.
 
-    Equal numbers compare equal and hash alike, however they are represented.
+    Equal numbers compare equal and hash alike, however they are represented, and so do an int, a
+    float and a `Fraction`, each taken as exactly the number it is.
+
+    >>> golden = Surd(1, 1, 5, 2)
+    >>> print(golden, float(golden), format(golden, ".40"))
+    (1 + sqrt(5))/2 1.618033988749895 1.618033988749894848204586834365638117720
+    >>> 1.618033988749894 < golden < 1.618033988749895 and Surd(4, z=2) == 2
+    True
     """
 
     x: int
-    y: int
-    d: int
-    z: int
+    y: int = 0
+    d: int = 0
+    z: int = 1
 
     def compare(self, other: Surd) -> int:
         """Return the sign of self - other; infinity equals itself."""
@@ -65,21 +77,120 @@ class Surd:
             return sign_1(a, self.y * other.z - other.y * self.z, self.d)
         return sign_2(a, self.y * other.z, self.d, -other.y * self.z, other.d)
 
+    def _against(self, other: object) -> Any:
+        """Return the sign of self - other, of any real number; NaN, which has no place, for NaN."""
+        if type(other) is Surd:
+            return self.compare(other)
+        if not isinstance(other, Real):
+            return NotImplemented
+        if isinstance(other, Rational):
+            return self.compare(fraction(int(other.numerator), int(other.denominator)))
+        number = float(other)
+        if isnan(number):
+            return number
+        return 1 if number == -inf else self.compare(dyadic(number))
+
     def sign(self) -> int:
         """Return the sign of the number."""
         return sign_1(self.x, self.y, self.d)
 
     def __eq__(self, other: object) -> bool:
         """Decide equality as numbers."""
-        return self.compare(other) == 0 if isinstance(other, Surd) else NotImplemented
+        found = self._against(other)
+        return found if found is NotImplemented else found == 0
 
-    def __lt__(self, other: Surd) -> bool:
+    def __lt__(self, other: Number) -> bool:
         """Decide order as numbers."""
-        return self.compare(other) < 0
+        found = self._against(other)
+        return found if found is NotImplemented else found < 0
+
+    def __le__(self, other: Number) -> bool:
+        """Decide order as numbers."""
+        found = self._against(other)
+        return found if found is NotImplemented else found <= 0
+
+    def __gt__(self, other: Number) -> bool:
+        """Decide order as numbers."""
+        found = self._against(other)
+        return found if found is NotImplemented else found > 0
+
+    def __ge__(self, other: Number) -> bool:
+        """Decide order as numbers."""
+        found = self._against(other)
+        return found if found is NotImplemented else found >= 0
 
     def __hash__(self) -> int:
-        """Hash the minimal polynomial and the root index, which equal numbers share."""
-        return hash((self.polynomial(), self.root()))
+        """Hash the number: as Python hashes it where it is rational, else its polynomial."""
+        value = self.rational()
+        if value is not None:
+            return hash(value)
+        return hash((self.polynomial(), self.root())) if self.z else hash(inf)
+
+    def __neg__(self) -> Surd:
+        """Return the negative of a finite number."""
+        return Surd(-self.x, -self.y, self.d, self.z)
+
+    def __float__(self) -> float:
+        """Return the binary64 nearest to the number, ties to even."""
+        return enclose(self, BINARY64).nearest
+
+    def __repr__(self) -> str:
+        """Return what gives the number back: `Surd(1, 1, 5, 2)`, `Surd(2)`, `INFINITY`."""
+        if not self.z:
+            return "INFINITY"
+        x, y, d, z = self._reduced()
+        given = [x, y, d][: 3 if y else 1]
+        return f"Surd({', '.join(map(str, given))}{f', z={z}' * (z != 1)})"
+
+    def __str__(self) -> str:
+        """Return the closed form: `(1 + sqrt(5))/2`, `2/3`, `inf`."""
+        if not self.z:
+            return "inf"
+        x, y, d, z = self._reduced()
+        root = f"{abs(y)}*sqrt({d})" if abs(y) != 1 else f"sqrt({d})"
+        if not y:
+            top = str(x)
+        elif x:
+            top = f"{x} {'+' if y > 0 else '-'} {root}"
+        else:
+            top = root if y > 0 else f"-{root}"
+        if z == 1:
+            return top
+        return f"({top})/{z}" if x and y else f"{top}/{z}"
+
+    def __format__(self, spec: str) -> str:
+        """Return the closed form for "", for ".40" that many digits, else as a float is shown.
+
+        Digits are rounded to nearest; those of a rational number have no zeros at their end.
+        """
+        if not spec:
+            return str(self)
+        if not (spec[0] == "." and spec[1:].isdecimal()) or not self.z:
+            return format(float(self), spec)
+        wanted = max(int(spec[1:]), 1)
+        digits, _, power = decimal(self, wanted).partition("e")
+        minus, digits, place = digits[: digits[0] == "-"], digits.lstrip("-"), int(power or 0)
+        digits = digits.replace(".", "")
+        if self.rational() is not None:
+            digits = digits.rstrip("0") or "0"
+        if not -5 < place < wanted:
+            rest = f".{digits[1:]}" if digits[1:] else ""
+            return f"{minus}{digits[0]}{rest}e{place:+03d}"
+        digits = "0" * -place + digits.ljust(place + 1, "0")
+        whole, rest = digits[: max(place, 0) + 1], digits[max(place, 0) + 1 :]
+        return f"{minus}{whole}.{rest}" if rest else minus + whole
+
+    def _reduced(self) -> tuple[int, int, int, int]:
+        """Return x, y, d, z without common factors, the squares of small ones taken out of d."""
+        value = self.rational()
+        if value is not None:
+            return value.numerator, 0, 0, value.denominator
+        y, d = self.y, self.d
+        for n in (2, 3, 5, 7, 11, 13):
+            while d % (n * n) == 0:
+                y, d = n * y, d // (n * n)
+        common = gcd(self.x, y, self.z)
+        return self.x // common, y // common, d, self.z // common
 
     @property
     def finite(self) -> bool:
@@ -129,6 +240,6 @@ def fraction(numerator: int, denominator: int) -> Surd:
 
 def dyadic(number: float) -> Surd:
     """Return the number that a float is; infinity is infinity. NaN and -infinity are refused."""
-    if number == float("inf"):
+    if number == inf:
         return INFINITY
     return fraction(*number.as_integer_ratio())

@@ -16,8 +16,8 @@ from raycert.cases.accept import Accept, Numbers, Pairs, malformed
 from raycert.cases.formats import Format
 from raycert.cases.levels import Level, Tier
 from raycert.cases.model import Intersection, Ray, Solid, Tree, leaves
-from raycert.oracle.exact.intervals import Intervals, contains, meets
-from raycert.oracle.exact.rounding import enclose, expected, nearest
+from raycert.oracle.exact.intervals import Intervals, contains, expected, meets
+from raycert.oracle.exact.rounding import enclose, nearest
 from raycert.oracle.exact.surd import INFINITY, Surd, dyadic, sign_1
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.moved import LAST_STEP, Measure, Scene, Step, moved_leaf

@@ -14,7 +14,7 @@ from typing import Literal
 from raycert.cases.formats import Format
 from raycert.cases.model import Tree, leaves
 from raycert.oracle.exact.faces import Place, place
-from raycert.oracle.exact.rounding import expected
+from raycert.oracle.exact.intervals import expected
 from raycert.oracle.exact.trace import Answer, trace
 from raycert.oracle.map.inputs import Case
 

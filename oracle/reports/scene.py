@@ -26,7 +26,7 @@ from raycert.cases.model import (
     Vector,
     leaves,
 )
-from raycert.oracle.exact.rounding import expected
+from raycert.oracle.exact.intervals import expected
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.reports.plane import Plane, anchor, dot, minus, norm, planes, times
 

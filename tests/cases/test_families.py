@@ -47,7 +47,7 @@ from raycert.cases.table import cells
 from raycert.oracle.corpus.golden import known as exactly
 from raycert.oracle.exact.faces import place
 from raycert.oracle.exact.faces import touch as touch_of
-from raycert.oracle.exact.rounding import expected
+from raycert.oracle.exact.intervals import expected
 from raycert.oracle.exact.trace import trace
 from shared.corpus import golden
 

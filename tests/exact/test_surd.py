@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from fractions import Fraction
 from itertools import pairwise
-from math import gcd, inf, isqrt, nan
+from math import gcd, inf, isqrt, nan, ulp
 
 import pytest
 from hypothesis import given
@@ -219,5 +220,89 @@ def test_floats_that_are_no_numbers() -> None:
         dyadic(nan)
     with pytest.raises(OverflowError):
         dyadic(-inf)
-    assert (ZERO == 0) is False
     assert ZERO != "0"
+
+
+@given(anything, st.integers() | st.fractions() | st.floats(allow_nan=False))
+def test_other_numbers_compare_as_exactly_what_they_are(a: Surd, b: int | Fraction | float) -> None:
+    if b == -inf:
+        assert a > b
+        assert a != b
+        return
+    other = dyadic(b) if isinstance(b, float) else fraction(b.numerator, b.denominator)
+    assert (a < b, a <= b, a == b, a >= b, a > b) == (
+        a < other, a <= other, a == other, a >= other, a > other
+    )  # fmt: skip
+    assert (b < a, b <= a, b == a, b >= a, b > a) == (a > b, a >= b, a == b, a <= b, a < b)
+    assert hash(other) == hash(b)
+
+
+def test_numbers_of_numpy_compare_and_nan_has_no_place() -> None:
+    np = pytest.importorskip("numpy")
+    root = Surd(0, 1, 2)
+    assert root > np.float32(1.4142135)
+    assert root < np.float64(1.4142135623730951)
+    assert Surd(3) == np.int64(3) == Surd(6, z=2)
+    assert Surd(2**70) > np.int64(2**62)
+    assert not root < nan
+    assert not root > nan
+    assert root != nan
+    assert root != "1"
+    with pytest.raises(TypeError):
+        assert root < "1"  # type: ignore[operator]
+
+
+@given(surds)
+def test_float_is_the_nearest_number(v: Surd) -> None:
+    near = float(v)
+    with mp.workprec(PRECISION):
+        assert abs(value(v) - near) <= mpf(ulp(near)) / 2
+
+
+@given(anything)
+def test_what_is_shown_can_be_pasted_back(v: Surd) -> None:
+    assert eval(repr(v), {"Surd": Surd, "INFINITY": INFINITY}) == v
+
+
+@given(surds)
+def test_the_closed_form_is_the_number(v: Surd) -> None:
+    with mp.workprec(PRECISION):
+        form = re.sub(r"(\d+)", r"mpf(\1)", str(v))
+        assert not settled_sign(eval(form, {"sqrt": mp.sqrt, "mpf": mpf}) - value(v))
+
+
+@pytest.mark.parametrize(
+    ("number", "form"),
+    [
+        (Surd(4, z=2), "2"),
+        (Surd(-2, z=6), "-1/3"),
+        (Surd(0, 1, 8, 4), "sqrt(2)/2"),
+        (Surd(0, -3, 2, 1), "-3*sqrt(2)"),
+        (Surd(6, -2, 5, 4), "(3 - sqrt(5))/2"),
+        (INFINITY, "inf"),
+    ],
+)
+def test_closed_forms_are_in_lowest_terms(number: Surd, form: str) -> None:
+    assert str(number) == f"{number}" == form
+
+
+@pytest.mark.parametrize(
+    ("number", "spec", "text"),
+    [
+        (Surd(0, 1, 2), ".40", "1.414213562373095048801688724209698078570"),
+        (Surd(1, z=3), ".5", "0.33333"),
+        (Surd(-1, z=8), ".40", "-0.125"),
+        (Surd(2), ".40", "2"),
+        (Surd(0), ".40", "0"),
+        (Surd(12345, z=1000), ".3", "12.3"),
+        (Surd(10**50), ".3", "1e+50"),
+        (Surd(123 * 10**50), ".2", "1.2e+52"),
+        (Surd(0, 1, 2, 10**9), ".3", "1.41e-09"),
+        (Surd(1, z=10000), ".3", "0.0001"),
+        (Surd(99999), ".3", "1e+05"),
+        (Surd(0, 1, 2), ".3f", "1.414"),
+        (INFINITY, ".40", "inf"),
+    ],
+)
+def test_digits_are_shown_as_python_shows_them(number: Surd, spec: str, text: str) -> None:
+    assert format(number, spec) == text

@@ -11,7 +11,7 @@ from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, Ray
 from raycert.cases.protocol import Hello, Reply
 from raycert.oracle.client.target import target
-from raycert.oracle.exact.rounding import expected
+from raycert.oracle.exact.intervals import expected
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.answer import First, YesNo
 from raycert.oracle.judge.levels import Judge

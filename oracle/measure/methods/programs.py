@@ -20,7 +20,7 @@ from raycert.cases.protocol import Reply
 from raycert.oracle.client.dialogue import Dialogue, Limits, Question, Target, Unusable, fresh_ids
 from raycert.oracle.client.process import Broken
 from raycert.oracle.client.replay import run
-from raycert.oracle.exact.rounding import expected
+from raycert.oracle.exact.intervals import expected
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.measure.methods.method import (
     Answered,
