@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TypeVar
 
+from raycert.cases import recipes
 from raycert.cases.case import Case
 from raycert.cases.dice import Dice
 from raycert.cases.families.frames import ALIGNED, OBLIQUE, UPRIGHT, Exact, Frame, Number
@@ -35,36 +36,13 @@ from raycert.cases.families.sketch import (
     touch,
     two,
 )
+from raycert.cases.families.touch import CONTACTS
 from raycert.cases.formats import BINARY64, Format
 from raycert.cases.model import SOLIDS, Vector
-from raycert.cases.recipes import (
-    ALONG,
-    AWAY,
-    BACK,
-    DIRECTIONS,
-    LEAVES,
-    MOVED,
-    NESTED,
-    PICKS,
-    RADII,
-    SPEEDS,
-    STILL,
-    TREES,
-    TURNS,
-    UNITS,
-    Aim,
-    LeafRecipe,
-    Pool,
-    Recipe,
-    Spot,
-    TreeRecipe,
-    alike,
-    make_ray,
-    make_solid,
-)
+from raycert.cases.recipes import LEAVES, TREES, Aim, LeafRecipe, Pool, Recipe, Spot, TreeRecipe
 
 T = TypeVar("T")
-CHORDS = ((3, 4, 5), (4, 3, 5), (5, 12, 13), (15, 8, 17), (24, 7, 25), (20, 21, 29), (0, 3, 3))
+CHORDS = (*CONTACTS, *((y, x, radius) for x, y, radius in CONTACTS), (0, 3, 3))
 """How far off the axis, half a chord, the radius."""
 
 
@@ -359,8 +337,8 @@ def sampled(number: int, seed: int, fmt: Format = BINARY64) -> Case:
     parts = _Parts(draw, lattice=draw.chance(3, 4))
     pool = parts.pool()
     kind = (*LEAVES, *TREES)[number % len(SOLIDS)]
-    solid = make_solid(parts.leaf(kind) if kind in LEAVES else parts.tree(kind, 3), pool)
-    ray = make_ray((solid,), parts.aim(), pool)
+    solid = recipes.make_solid(parts.leaf(kind) if kind in LEAVES else parts.tree(kind, 3), pool)
+    ray = recipes.make_ray((solid,), parts.aim(), pool)
     why = f"Case {number} of the sample with seed {seed}, a {kind.replace('_', ' ')}."
     return Case(f"{seed}-{number}", why, solid, ray, "generic")
 
@@ -380,13 +358,13 @@ class _Parts:
 
     def direction(self) -> Vector:
         if self.lattice and self.draw.chance(3, 4):
-            return self.draw.pick(DIRECTIONS)
+            return self.draw.pick(recipes.DIRECTIONS)
         vector = self.point()
-        return vector if any(vector) else UNITS[2]
+        return vector if any(vector) else recipes.UNITS[2]
 
     def radius(self) -> float:
         if self.lattice:
-            return self.draw.pick(RADII)
+            return self.draw.pick(recipes.RADII)
         return self.draw.dice.real(self.draw.fmt, 0.01, 4)
 
     def pool(self) -> Pool:
@@ -396,7 +374,7 @@ class _Parts:
 
     def own(self, make: Callable[[], T], own: int) -> int | T:
         """Return a pick from the pool, or in `own` cases of four a value of its own."""
-        return make() if self.draw.chance(own, 4) else self.draw.pick(PICKS)
+        return make() if self.draw.chance(own, 4) else self.draw.pick(recipes.PICKS)
 
     def leaf(self, kind: str) -> LeafRecipe:
         axis = self.own(lambda: (self.point(), self.direction()), 1)
@@ -406,7 +384,10 @@ class _Parts:
         """Return a Boolean, now and then of parts that are alike, or the same."""
         if self.draw.chance(1, 4):
             leaf = self.leaf(self.draw.pick(PARTS))
-            return TreeRecipe(kind, alike(leaf, self.draw.pick(PICKS), self.draw.pick(NESTED)))
+            return TreeRecipe(
+                kind,
+                recipes.alike(leaf, self.draw.pick(recipes.PICKS), self.draw.pick(recipes.NESTED)),
+            )
         parts: list[Recipe] = []
         for _ in range(self.draw.pick((2, 2, 3, 2, 3, 4, 2, 1))):
             if parts and self.draw.chance(1, 10):
@@ -419,19 +400,19 @@ class _Parts:
 
     def spot(self) -> Spot:
         leaf, frame = self.draw.whole(0, 11), self.draw.whole(0, 11)
-        return Spot(leaf, frame, self.draw.pick(ALONG), self.draw.pick(AWAY))
+        return Spot(leaf, frame, self.draw.pick(recipes.ALONG), self.draw.pick(recipes.AWAY))
 
     def aim(self) -> Aim:
         free = None
         if self.draw.chance(1, 6):
             still = self.draw.chance(1, 5)
-            free = (self.own(self.point, 2), STILL if still else self.direction())
+            free = (self.own(self.point, 2), recipes.STILL if still else self.direction())
         return Aim(
             spot=self.spot(),
-            turn=self.draw.pick(TURNS),
+            turn=self.draw.pick(recipes.TURNS),
             toward=self.spot() if self.draw.chance(1, 3) else None,
-            back=self.draw.pick(BACK),
-            speed=self.draw.pick(SPEEDS),
+            back=self.draw.pick(recipes.BACK),
+            speed=self.draw.pick(recipes.SPEEDS),
             free=free,
-            moved=self.draw.pick(MOVED),
+            moved=self.draw.pick(recipes.MOVED),
         )

@@ -10,7 +10,7 @@ import math
 from itertools import combinations
 
 from raycert.cases.model import (
-    Cylinder,
+    FIELDS,
     HalfSpace,
     InfiniteCylinder,
     Leaf,
@@ -22,13 +22,14 @@ from raycert.cases.model import (
     Vector,
     leaves,
 )
+from raycert.cases.vectors import dot, minus
 
 REACH = 2**11
 """Coordinates differ by less than this; powers of two lie between 1/REACH and REACH."""
 
 
 def is_lattice(solid: Solid, ray: Ray) -> bool:
-    """Tell whether a leaf and a ray, or all leaves of a tree and a ray, lie on the lattice.
+    """Whether a leaf and a ray, or all leaves of a tree and a ray, lie on the lattice.
 
     Axes, normals and directions lie along coordinate axes; |w|, |direction|, |normal| and radius
     are powers of two; coordinates are integers whose differences stay below 2^11. The powers are
@@ -38,23 +39,14 @@ def is_lattice(solid: Solid, ray: Ray) -> bool:
     that drops that touch ends somewhere else, and both ends are right.
     """
     parts = [leaf for _, leaf in leaves(solid)]
-    points, vectors, lengths = [ray.origin], [ray.direction], []
+    points, vectors, lengths = [ray.origin], [ray.direction], list[float]()
     for leaf in parts:
-        match leaf:
-            case HalfSpace():
-                points.append(leaf.point)
-                vectors.append(leaf.normal)
-            case Sphere():
-                points.append(leaf.center)
-                lengths.append(leaf.radius)
-            case Slab():
-                points += [leaf.p, leaf.q]
-            case InfiniteCylinder() | Cylinder():
-                points += [leaf.p, leaf.q]
-                lengths.append(leaf.radius)
+        for name in FIELDS[type(leaf)]:
+            value = getattr(leaf, name)
+            (lengths if name == "radius" else vectors if name == "normal" else points).append(value)
     if not (all(_is_whole(point) for point in points) and _are_near(points)):
         return False
-    vectors += [_difference(x.q, x.p) for x in parts if not isinstance(x, HalfSpace | Sphere)]
+    vectors += [minus(x.q, x.p) for x in parts if not isinstance(x, HalfSpace | Sphere)]
     along = [_length_along_an_axis(vector) for vector in vectors]
     if not all(_is_small_power_of_two(length) for length in lengths + along):
         return False
@@ -62,31 +54,23 @@ def is_lattice(solid: Solid, ray: Ray) -> bool:
 
 
 def _holds_in_a_face(leaf: Leaf, ray: Ray) -> bool:
-    """Tell whether an endless leaf of the lattice has the whole ray in its face."""
+    """Whether an endless leaf of the lattice has the whole ray in its face."""
     match leaf:
         case HalfSpace(point, normal):
             return _is_level(ray, point, normal)
         case Slab(p, q):
-            return any(_is_level(ray, end, _difference(q, p)) for end in (p, q))
+            return any(_is_level(ray, end, minus(q, p)) for end in (p, q))
         case InfiniteCylinder(p, q, radius):
-            across = [
-                y
-                for y, w in zip(_difference(ray.origin, p), _difference(q, p), strict=True)
-                if w == 0
-            ]
-            still = [v for v, w in zip(ray.direction, _difference(q, p), strict=True) if w == 0]
-            return not any(still) and across[0] ** 2 + across[1] ** 2 == radius**2
+            y, w = minus(ray.origin, p), minus(q, p)
+            a, b = (y[i] for i in range(3) if w[i] == 0)
+            still = not any(ray.direction[i] for i in range(3) if w[i] == 0)
+            return still and a * a + b * b == radius * radius
     return False
 
 
 def _is_level(ray: Ray, point: Vector, normal: Vector) -> bool:
-    """Tell whether a ray of the lattice lies in the plane through `point` square to `normal`."""
-    return _dot(ray.direction, normal) == _dot(_difference(ray.origin, point), normal) == 0
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    """Return a . b, exact where b lies along an axis and both are of the lattice."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+    """Whether a ray of the lattice lies in the plane through `point` square to `normal`."""
+    return dot(ray.direction, normal) == dot(minus(ray.origin, point), normal) == 0
 
 
 def _is_whole(point: Vector) -> bool:
@@ -94,17 +78,12 @@ def _is_whole(point: Vector) -> bool:
 
 
 def _are_near(points: list[Vector]) -> bool:
-    """Tell whether points with whole coordinates differ by less than REACH in each."""
+    """Whether points with whole coordinates differ by less than REACH in each."""
     return all(
         abs(int(x) - int(y)) < REACH
         for one, other in combinations(points, 2)
         for x, y in zip(one, other, strict=True)
     )
-
-
-def _difference(a: Vector, b: Vector) -> Vector:
-    """Return a - b, exact for near points with whole coordinates."""
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def _length_along_an_axis(vector: Vector) -> float:

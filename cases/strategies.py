@@ -168,10 +168,10 @@ def _split(kinds: Iterable[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     wanted = {kinds} if isinstance(kinds, str) else set(kinds)
     if unknown := sorted(wanted - set(KINDS)):
         raise ValueError(f"unknown type {', '.join(unknown)}; known are {', '.join(KINDS)}")
-    found = tuple(name for name in LEAVES if name in wanted)
-    if not found:
+    chosen = tuple(name for name in LEAVES if name in wanted)
+    if not chosen:
         raise ValueError(f"no leaf among the types; name one of {', '.join(LEAVES)}")
-    return found, tuple(name for name in TREES if name in wanted)
+    return chosen, tuple(name for name in TREES if name in wanted)
 
 
 def _thrice(parts: st.SearchStrategy[float]) -> st.SearchStrategy[Vector]:
@@ -251,8 +251,8 @@ def _trees(
         some = _mixed((1, few), (3, more), (1, twice), (3, pairs))
         return st.builds(TreeRecipe, st.sampled_from(often), some)
 
-    found = st.recursive(leaf, extend, max_leaves=max_leaves)
-    return found.filter(lambda recipe: recipe.count() <= max_leaves)
+    grown = st.recursive(leaf, extend, max_leaves=max_leaves)
+    return grown.filter(lambda recipe: recipe.count() <= max_leaves)
 
 
 @cache
@@ -273,5 +273,5 @@ def _aims(style: _Style) -> st.SearchStrategy[Aim]:
 
 
 def _ensemble(recipes: tuple[Recipe, ...], aim: Aim, pool: Pool) -> Ensemble:
-    made = tuple(make_solid(recipe, pool) for recipe in recipes)
-    return made, make_ray(made, aim, pool)
+    drawn = tuple(make_solid(recipe, pool) for recipe in recipes)
+    return drawn, make_ray(drawn, aim, pool)

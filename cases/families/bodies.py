@@ -12,7 +12,7 @@ from raycert.cases.families.shots import (
     Flags,
     Frames,
     Shot,
-    depths,
+    beside,
     drawn,
     family,
     one_frame,
@@ -60,10 +60,10 @@ def bench(slug: str, text: str, shape: Node, flags: Flags, *paths: Path) -> tupl
     shots = []
     for path in paths:
         name, origin, direction = path[:3]
-        told = tuple(flag for word, flag in FLAG_OF.items() if word in name.split("-"))
+        flagged = tuple(flag for word, flag in FLAG_OF.items() if word in name.split("-"))
         shots.append(Shot(
             f"{slug}-{name}", f"A ray meets {text}: {name.replace('-', ' ')}", shape, origin,
-            direction, path[3] if len(path) == 4 else None, flags=(*flags, *told),
+            direction, path[3] if len(path) == 4 else None, flags=(*flags, *flagged),
         ))  # fmt: skip
     return tuple(shots)
 
@@ -514,21 +514,20 @@ def _near_faces(fmt: Format) -> Iterator[Shot]:
     """Yield starts just off the inner face of a shell of radii 2 and 1, along x."""
     shell, lens = less(ball(2), ball(1)), all_of(ball(2, -1), ball(2, 1))
     stack = any_of(drum(0, 1, 1), drum(1, 2, 1))
-    for size, depth in depths(fmt):
-        for side, sign in (("below", -1), ("above", 1)):
-            x = near(fmt, 1 + sign * depth)
-            gap, over = max(1 - x, Fraction(0)), max(x - 1, Fraction(0))
-            back = pair(1 + x, 2 + x) if sign < 0 else spans((0, over), (1 + x, 2 + x))
-            at: Exact = (x, 0, 0)
-            for shot in table(
-                ("shell-out", "the inner face of a shell, outward", shell, at, (1, 0, 0),
-                 pair(gap, 2 - x)),
-                ("shell-in", "the inner face of a shell, inward", shell, at, (-1, 0, 0), back),
-                ("lens", "the rim of a lens, inward", lens, at, (-1, 0, 0), pair(over, 1 + x),
-                 SEVENTHS),
-                ("seam", "the seam of a stack, down", stack, (0, 0, x), (0, 0, -1), pair(0, x)),
-            ):  # fmt: skip
-                yield shot.named(f"{{}}-{side}-{size}", f"A ray starts {size} radii {side} {{}}")
+    for slug, depth, text, inside in beside(fmt):
+        x = near(fmt, 1 + depth)
+        gap, over = max(1 - x, Fraction(0)), max(x - 1, Fraction(0))
+        back = pair(1 + x, 2 + x) if inside else spans((0, over), (1 + x, 2 + x))
+        at: Exact = (x, 0, 0)
+        for shot in table(
+            ("shell-out", "the inner face of a shell, outward", shell, at, (1, 0, 0),
+             pair(gap, 2 - x)),
+            ("shell-in", "the inner face of a shell, inward", shell, at, (-1, 0, 0), back),
+            ("lens", "the rim of a lens, inward", lens, at, (-1, 0, 0), pair(over, 1 + x),
+             SEVENTHS),
+            ("seam", "the seam of a stack, down", stack, (0, 0, x), (0, 0, -1), pair(0, x)),
+        ):  # fmt: skip
+            yield shot.named(f"{{}}-{slug}", text)
 
 
 HALVES = (ball(4, -4), ball(4, 4))

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
+from math import inf
 
 from raycert.cases.families.frames import SEVENTHS, UPRIGHT, Frame, Number, frames_for
 from raycert.cases.families.shots import Flags, Shot, drawn, family, slopes, table
@@ -24,109 +25,89 @@ from raycert.cases.families.sketch import (
     near,
     pair,
     slab,
-    spans,
     tube,
 )
 from raycert.cases.formats import Format
 from raycert.cases.table import PROBLEM_1, comparison_names
 
-Span = tuple[Number, Number | None]
+Span = tuple[Number, Number | float]
+"""Of t, from 0 on; the end may be infinity."""
+ENDLESS: Span = (0, inf)
 
 
 @dataclass(frozen=True, slots=True)
-class Across:
-    """A motion across the infinite cylinder: x = x0 + vx t at a fixed y, and the row it takes.
+class Motion:
+    """A motion across the infinite cylinder at a fixed y, or along the axis, and the row it takes.
 
-    `span` is what the infinite cylinder emits, or None.
+    `at` and `speed` are x and vx, or z and vz; `size` is the radius, or the height of q over p.
+    `span` is what the infinite cylinder or the slab emits, or None.
     """
 
     row: str
     name: str
     text: str
-    radius: Number
-    x: Number
-    vx: Number
-    y: Number
+    size: Number
+    at: Number
+    speed: Number
     span: Span | None
-    flags: tuple[str, ...] = ()
+    flags: Flags = ()
+    y: Number = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Along:
-    """A motion along the axis: z = z0 + vz t between planes at 0 (p) and `height` (q)."""
-
-    row: str
-    name: str
-    text: str
-    height: Number
-    z: Number
-    vz: Number
-    span: Span | None
-    flags: tuple[str, ...] = ()
-
-
-def _clip(t1: Number, t2: Number) -> Span | None:
+def _ahead(t1: Number, t2: Number) -> Span | None:
     return None if t2 < 0 else (max(t1, 0), t2)
 
 
-def _row_of(t1: Number, t2: Number) -> str:
-    if t2 < 0:
-        return "behind"
-    return "from-inside" if t1 < 0 else "through"
+def _across(
+    name: str, text: str, radius: int, y: int, times: tuple[int, int], *flags: str
+) -> Motion:
+    """Cross the wall at these times: it is 4 on each side of the axis, or touched."""
+    t1, t2 = times
+    speed = Fraction(8, t2 - t1) if t1 < t2 else 4
+    row = "behind" if t2 < 0 else "from-inside" if t1 < 0 else "through"
+    start = -t1 * speed - (4 if t1 < t2 else 0)
+    return Motion(row, name, text, radius, start, speed, _ahead(t1, t2), flags, y)
 
 
-def chord(t1: int, t2: int) -> Across:
+def chord(t1: int, t2: int) -> Motion:
     """Cross the wall at t1 < t2, beside the axis: y = 3, half chord 4, radius 5."""
-    vx = Fraction(8, t2 - t1)
-    text = "off the axis"
-    return Across(_row_of(t1, t2), "chord", text, 5, -4 - t1 * vx, vx, 3, _clip(t1, t2))
+    return _across("chord", "off the axis", 5, 3, (t1, t2))
 
 
-def diameter(t1: int, t2: int) -> Across:
+def diameter(t1: int, t2: int) -> Motion:
     """Cross the wall at t1 < t2, through the axis: radius 4."""
-    vx = Fraction(8, t2 - t1)
-    text = "through the axis"
-    return Across(_row_of(t1, t2), "diameter", text, 4, -4 - t1 * vx, vx, 0, _clip(t1, t2))
+    return _across("diameter", "through the axis", 4, 0, (t1, t2))
 
 
-def graze(t: int) -> Across:
+def graze(t: int) -> Motion:
     """Touch the wall at t: y = radius."""
-    text = "tangent to the wall"
-    return Across(_row_of(t, t), "graze", text, 4, -4 * t, 4, 4, _clip(t, t), ("tangent",))
+    return _across("graze", "tangent to the wall", 4, 4, (t, t), "tangent")
 
 
-def _still(name: str, text: str, x: int, y: int, radius: int = 4, *flags: str) -> Across:
-    inside = x * x + y * y <= radius * radius
-    kind = "along-inside" if inside else "along-outside"
-    return Across(kind, name, text, radius, x, 0, y, (0, None) if inside else None, flags)
+def _still(name: str, text: str, x: int, y: int, radius: int = 4, *flags: str) -> Motion:
+    if x * x + y * y <= radius * radius:
+        return Motion("along-inside", name, text, radius, x, 0, ENDLESS, flags, y)
+    return Motion("along-outside", name, text, radius, x, 0, None, flags, y)
 
 
-def rising(start: int, end: int, vz: int) -> Along:
+def rising(start: int, end: int, vz: int) -> Motion:
     """Cross the plane of p at `start` and that of q at `end`, moving from p to q."""
-    height = vz * (end - start)
-    kind = "CF" if start > 0 else "AF"
-    return Along(kind, "planes", "from p to q", height, -vz * start, vz, _clip(start, end))
+    row, height = "CF" if start > 0 else "AF", vz * (end - start)
+    return Motion(row, "planes", "from p to q", height, -vz * start, vz, _ahead(start, end))
 
 
-def falling(start: int, end: int, vz: int) -> Along:
+def falling(start: int, end: int, vz: int) -> Motion:
     """Cross the plane of q at `start` and that of p at `end`, moving from q to p."""
-    height = vz * (end - start)
-    kind = "BG" if start > 0 else "BE"
-    z = height + vz * start
-    return Along(kind, "planes", "from q to p", height, z, -vz, _clip(start, end))
-
-
-def _level(kind: str, name: str, text: str, z: int, *flags: str) -> Along:
-    inside = 0 <= z <= 8
-    return Along(kind, name, text, 8, z, 0, (0, None) if inside else None, flags)
+    row, height = "BG" if start > 0 else "BE", vz * (end - start)
+    return Motion(row, "planes", "from q to p", height, vz * end, -vz, _ahead(start, end))
 
 
 LEVEL = (
-    _level("AE", "between", "between the caps", 2),
-    _level("AE", "in-cap-p", "in the plane of p", 0, "cap-plane"),
-    _level("AE", "in-cap-q", "in the plane of q", 8, "cap-plane"),
-    _level("AH", "level", "level beyond q", 10),
-    _level("DE", "level", "level beyond p", -2),
+    Motion("AE", "between", "between the caps", 8, 2, 0, ENDLESS),
+    Motion("AE", "in-cap-p", "in the plane of p", 8, 0, 0, ENDLESS, ("cap-plane",)),
+    Motion("AE", "in-cap-q", "in the plane of q", 8, 8, 0, ENDLESS, ("cap-plane",)),
+    Motion("AH", "level", "level beyond q", 8, 10, 0, None),
+    Motion("DE", "level", "level beyond p", 8, -2, 0, None),
 )
 STILL = (
     _still("axis", "on the axis", 0, 0),
@@ -137,8 +118,8 @@ STILL = (
     _still("corner", "outside the wall but inside its square", 3, 3),
 )
 MISSES = (
-    Across("miss", "wide", "wide of the wall", 4, -8, 4, 5, None),
-    Across("miss", "receding", "wide of the wall and moving away", 4, 8, 4, 6, None, ("behind",)),
+    Motion("miss", "wide", "wide of the wall", 4, -8, 4, None, (), 5),
+    Motion("miss", "receding", "wide of the wall and moving away", 4, 8, 4, None, ("behind",), 6),
 )
 SPANS = [(a, b) for a in range(-3, 5) for b in range(a + 1, 6) if b - a in (1, 2, 4)]
 """Crossing times of a chord."""
@@ -146,28 +127,24 @@ TIMES = [(a, b) for a in range(-2, 5) for b in range(a + 1, 6)]
 """Crossing times of the two planes."""
 
 
-def across(kind: str) -> list[Across]:
+def across(kind: str) -> list[Motion]:
     """Return the motions across that take a row of Problem 1, the plainest first."""
     chords = [make(a, b) for make in (chord, diameter) for a, b in SPANS]
     motions = [*STILL, *MISSES, *chords, *(graze(t) for t in range(-2, 5))]
     return [motion for motion in motions if motion.row == kind]
 
 
-def leaving(vz: int) -> tuple[Along, Along]:
-    """Return the motions away from the slab, beyond either plane."""
-    return (
-        Along("AH", "away", "beyond q and moving away", 8, 10, vz, None, ("behind",)),
-        Along("DE", "away", "beyond p and moving away", 8, -2, -vz, None, ("behind",)),
-    )
-
-
-def along(vz: int) -> list[Along]:
+def along(vz: int) -> list[Motion]:
     """Return the motions along the axis, the plainest first."""
     planes = [make(a, b, vz) for make in (falling, rising) for a, b in TIMES if b >= 0]
-    return [*LEVEL, *leaving(vz), *planes]
+    leaving = (
+        Motion("AH", "away", "beyond q and moving away", 8, 10, vz, None, ("behind",)),
+        Motion("DE", "away", "beyond p and moving away", 8, -2, -vz, None, ("behind",)),
+    )
+    return [*LEVEL, *leaving, *planes]
 
 
-def cell_of(one: Across, two: Along) -> tuple[str, ...]:
+def cell_of(one: Motion, two: Motion) -> tuple[str, ...]:
     """Return the comparisons of the two spans, in the words of a slug; empty where one is empty.
 
     >>> cell_of(chord(1, 3), falling(2, 4, 3))
@@ -175,41 +152,29 @@ def cell_of(one: Across, two: Along) -> tuple[str, ...]:
     """
     if one.span is None or two.span is None:
         return ()
-    signs = {
-        "a-c": _compare(one.span[0], two.span[0]),
-        "b-d": _compare(one.span[1], two.span[1]),
-        "m-n": _compare(max(one.span[0], two.span[0]), _least(one.span[1], two.span[1])),
-    }
+    (a, b), (c, d) = one.span, two.span
+    m, n = max(a, c), min(b, d)
+    signs = {"a-c": (a > c) - (a < c), "b-d": (b > d) - (b < d), "m-n": (m > n) - (m < n)}
     words = {"<": "-before-", "=": "-with-", ">": "-after-"}
     return tuple(name[0] + words[name[1]] + name[2] for name in comparison_names(signs))
 
 
-def _least(a: Number | None, b: Number | None) -> Number | None:
-    if a is None or b is None:
-        return b if a is None else a
-    return min(a, b)
-
-
-def _compare(a: Number | None, b: Number | None) -> int:
-    """Return the sign of a - b, None being infinity and equal to itself."""
-    if a is None or b is None:
-        return int(a is None) - int(b is None)
-    return (a > b) - (a < b)
-
-
-def _meet(one: Span | None, two: Span | None) -> Pairs:
+def _meet(one: Span | None, two: Span | None = ENDLESS) -> Pairs:
+    """Return the list of what both spans share."""
     if one is None or two is None:
         return MISS
-    enter, leave = max(one[0], two[0]), _least(one[1], two[1])
-    return pair(enter, leave) if leave is None or enter <= leave else MISS
+    enter, leave = max(one[0], two[0]), min(one[1], two[1])
+    if enter > leave:
+        return MISS
+    return pair(enter, None if leave == inf else Fraction(leave))
 
 
-def _plainest(kind: str) -> Iterator[tuple[Across, Along, tuple[str, ...]]]:
+def _plainest(kind: str) -> Iterator[tuple[Motion, Motion, tuple[str, ...]]]:
     """Yield the first motions for each cell and each manner of motion."""
     seen = set()
     for one in across(kind):
-        for two in along(3 if one.vx else 2):
-            if one.name == "diameter" and two.vz:
+        for two in along(3 if one.speed else 2):
+            if one.name == "diameter" and two.speed:
                 continue  # a slanted ray through the axis says no more than one beside it
             cell = cell_of(one, two)
             key = (one.name, two.row, two.name, cell)
@@ -222,25 +187,25 @@ def _rows_of(kind: str) -> Callable[[Format], Iterator[Shot]]:
     return lambda _: (_cell(one, two, cell) for one, two, cell in _plainest(kind))
 
 
-def _cell(one: Across, two: Along, cell: tuple[str, ...]) -> Shot:
+def _cell(one: Motion, two: Motion, cell: tuple[str, ...]) -> Shot:
     words = [two.row.lower(), *cell, one.name]
     if two.name != "planes":
         words.append(two.name)
     flags = [*one.flags, *two.flags]
-    if one.vx == 0:
-        flags.append("zero-direction" if two.vz == 0 else "parallel")
-    elif two.vz == 0:
+    if one.speed == 0:
+        flags.append("zero-direction" if two.speed == 0 else "parallel")
+    elif two.speed == 0:
         flags.append("perpendicular")
-    straight = one.vx == 0 or two.vz == 0
+    straight = one.speed == 0 or two.speed == 0
     return Shot(
         "-".join(words), f"{_sentence(one, two)}{_order(cell)}",
-        cylinder(one.radius, two.height), (one.x, one.y, two.z), (one.vx, 0, two.vz),
+        cylinder(one.size, two.size), (one.at, one.y, two.at), (one.speed, 0, two.speed),
         _meet(one.span, two.span), drawn(2 if straight else 1, 1), tuple(flags),
     )  # fmt: skip
 
 
-def _sentence(one: Across, two: Along) -> str:
-    subject = "a still ray" if one.vx == two.vz == 0 else "a ray"
+def _sentence(one: Motion, two: Motion) -> str:
+    subject = "a still ray" if one.speed == two.speed == 0 else "a ray"
     return f"Row {two.row} takes {subject} {one.text}, {two.text}"
 
 
@@ -262,14 +227,14 @@ WHEN = {
 TOUCHES = {"ahead": 2, "at-the-start": 0, "behind": -2}
 
 
-def _crossings() -> Iterator[tuple[str, tuple[int, int], Across]]:
+def _crossings() -> Iterator[tuple[str, tuple[int, int], Motion]]:
     """Yield (slug, crossing times, motion) of chords and diameters."""
     for when, (t1, t2) in WHEN.items():
         for one in (chord(t1, t2), diameter(t1, t2)):
             yield f"{one.name}-{when}", (t1, t2), one
 
 
-def _motions() -> Iterator[tuple[str, str, Across]]:
+def _motions() -> Iterator[tuple[str, str, Motion]]:
     """Yield (slug, words for when, motion)."""
     for slug, (t1, t2), one in _crossings():
         yield slug, f", from t = {t1} to {t2}", one
@@ -282,13 +247,13 @@ def _motions() -> Iterator[tuple[str, str, Across]]:
 def _tube_rows(_: Format) -> Iterator[Shot]:
     for name, when, one in _motions():
         for word, text, vz in (("level", "without", 0), ("climbing", "with", 2)):
-            if one.vx == vz == 0:
+            if one.speed == vz == 0:
                 continue
-            way = ("parallel",) if one.vx == 0 else () if vz else ("perpendicular",)
+            way = ("parallel",) if one.speed == 0 else () if vz else ("perpendicular",)
             yield Shot(
                 f"{name}-{word}", f"A ray is {one.text}{when}, {text} a part along the axis",
-                tube(one.radius), (one.x, one.y, 2), (one.vx, 0, vz),
-                MISS if one.span is None else spans(one.span), flags=(*one.flags, *way),
+                tube(one.size), (one.at, one.y, 2), (one.speed, 0, vz),
+                _meet(one.span), flags=(*one.flags, *way),
             )  # fmt: skip
 
 
@@ -296,8 +261,8 @@ def _sphere_rows(_: Format) -> Iterator[Shot]:
     for slug, (t1, t2), one in _crossings():
         text = f"A ray meets a sphere {one.text.replace('axis', 'centre')}"
         yield Shot(
-            slug, f"{text}, at t = {t1} and t = {t2}", ball(one.radius), (one.x, one.y, 0),
-            (one.vx, 0, 0), MISS if one.span is None else spans(one.span), _moved(2, 1),
+            slug, f"{text}, at t = {t1} and t = {t2}", ball(one.size), (one.at, one.y, 0),
+            (one.speed, 0, 0), _meet(one.span), _moved(2, 1),
             _start_flags(t1, t2),
         )  # fmt: skip
     for shot in SPHERE_MISSES:

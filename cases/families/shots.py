@@ -191,6 +191,13 @@ def depths(fmt: Format) -> Iterator[tuple[str, Fraction]]:
         yield f"1e-{k}", near(fmt, ten(-k))
 
 
+def beside(fmt: Format) -> Iterator[tuple[str, Fraction, str, bool]]:
+    """Yield starts below and above a face: slug, signed depth, sentence, and whether inside."""
+    for size, depth in depths(fmt):
+        yield f"below-{size}", -depth, f"A ray starts {size} radii below {{}}", True
+        yield f"above-{size}", depth, f"A ray starts {size} radii above {{}}", False
+
+
 def slopes(fmt: Format) -> Iterator[tuple[str, Fraction]]:
     """Yield (name, slope) from 1e-1 to below the last bit of 1."""
     for k in range(1, 18 if is_double(fmt) else 9):

@@ -10,7 +10,7 @@ from fractions import Fraction
 
 from raycert.cases.case import Case, Family, Tier
 from raycert.cases.families.frames import ALIGNED, SEVENTHS, UPRIGHT, Exact
-from raycert.cases.families.shots import Shot, decades, depths, drawn, family, table
+from raycert.cases.families.shots import Shot, beside, decades, drawn, family, table
 from raycert.cases.families.sketch import (
     ALWAYS,
     MISS,
@@ -131,17 +131,10 @@ def _flagged(shots: tuple[Shot, ...], word: str, *flags: str) -> tuple[Shot, ...
     )
 
 
-def _beside(fmt: Format) -> Iterator[tuple[str, Fraction, str, bool]]:
-    """Yield depths below and above a face: size, signed depth, words, and whether it is inside."""
-    for size, depth in depths(fmt):
-        yield f"below-{size}", -depth, f"A ray starts {size} radii below {{}}", True
-        yield f"above-{size}", depth, f"A ray starts {size} radii above {{}}", False
-
-
 def _near_surface(fmt: Format) -> Iterator[Shot]:
     """Yield starts just inside and just outside r = 1, 0 <= z <= 4, in the exact rounded place."""
     body, quarter = cylinder(1, 4), Fraction(1, 4)
-    for slug, depth, text, inside in _beside(fmt):
+    for slug, depth, text, inside in beside(fmt):
         x, z = near(fmt, 1 + depth), near(fmt, 4 + depth)
         over, up = max(x - 1, Fraction(0)), max(z - 4, Fraction(0))
         wall: Exact = (x, 0, 2)
@@ -165,7 +158,7 @@ def _near_surface(fmt: Format) -> Iterator[Shot]:
 def _near_sphere(fmt: Format) -> Iterator[Shot]:
     """Yield starts just inside and just outside r = 1, at the nearest number's exact place."""
     body = ball(1)
-    for slug, depth, text, inside in _beside(fmt):
+    for slug, depth, text, inside in beside(fmt):
         x = near(fmt, 1 + depth)
         start: Exact = (x, 0, 0)
         inward = pair(max(x - 1, Fraction(0)), 1 + x)
