@@ -1,21 +1,25 @@
-"""`raycert bench`: error against run time, all methods on the same rays in one run."""
+"""`raycert bench`: what answers cost, and how wrong they are, on the same rays in one run."""
 
 from __future__ import annotations
 
-import shlex
+from collections.abc import Sequence
 from math import isinf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-if TYPE_CHECKING:
-    from raycert.oracle.measure.bench.commands import Whole
-    from raycert.oracle.measure.bench.errors import Spread
-    from raycert.oracle.measure.bench.rows import Row
-    from raycert.oracle.measure.bench.run import Report
-    from raycert.oracle.measure.methods.method import Method
+from raycert.oracle.commands.options import check_writable, counting, repeatable
+from raycert.oracle.commands.ways import chosen, drawing, end, known, ways_options
 
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from raycert.oracle.measure.errors import Spread
+    from raycert.oracle.measure.files import Effort, Report
+    from raycert.oracle.measure.race import Figures
+
+SECTIONS = ("methods", "scalar", "batch", "libraries", "scenes", "pipe", "commands")
 QUICKLY = ("random", "far", "tilted", "ties")
 """The scenarios of `--quick`, if none are named."""
 WIDTH = 108
@@ -26,183 +30,212 @@ LEGEND = """
 ulps: median and p99 of the rays whose pairs are right in number. k, squared: p99 of a sample.
 rounded: lists that are exact. lost: pairs missed + phantom pairs + rays without an answer.
 """
-HELP = """Set the error of many ways to answer rays against their time per ray.
-
-All methods answer the same rays in one run, pass by pass in turn; only ratios of times travel to
-another machine. Errors are against the exact answer: forward in ulps of the worst end, backward as
-the k of `certify` (a sample of the rays), and the rays that are lost: with another number of pairs
-than there is, or no answer. `rounded` counts the rays whose list is the correctly rounded one.
+EPILOG = """\b
+What a row says, for example of
+    method      us/ray  ...  ratio  ulps  p99     k p99   squared  rounded  lost
+    textbook     4.1         0.08   95    1.2e7   2.1e6   6        12       3 + 0 + 0
+A ray takes 4.1 microseconds, a twelfth of the oracle's time. In 99 of 100 rays
+the worst end is within 1.2e7 roundings of the exact one, and the answer is right
+for a solid whose faces are moved by 2.1e6 roundings (k; `stable` allows 64). By
+the looser squared measure 6 are enough: `sound`. Three pairs are missed.
 
 \b
-SCENARIOS
-  random  far  thin  tilted  tangent  rim  tiny  huge  boolean
+Sections (--section; the first alone if none is named):
+  methods     error against run time, of all ways to answer rays
+  scalar      one ray at a time: the oracle beside SymPy, mpmath, python-flint's arb
+  batch       the batch oracle through numba and NumPy, beside the naive float64 formula
+  libraries   the batched reference tracer beside raysect, MuJoCo, trimesh with Embree
+  scenes      the cost of a ray against the number of solids, 1 to 1,000
+  pipe        clients asked through the harness, beside the same clients alone
+  commands    whole commands of raycert, start-up included
+
+\b
+Scenarios of the section methods:
+  random  far  thin  tilted  tangent  rim  tiny  huge  boolean  axis-aligned  touching
   ties    t within 2^-60 to 2^-1000 of the middle of two doubles
+
+All ways of a section answer the same rays, pass by pass in turn; the least processor time of each
+counts (of programs, that on the wall), and only ratios travel to another machine. A batch is priced
+at thousands of rays a call, and by its arrays alone. A client's time is what it takes over the
+pipe. What is not installed is named and left out. Ctrl-C ends the run and keeps what is measured.
 
 \b
 Examples:
   raycert bench --quick
   raycert bench --scenario far --out figures
   raycert bench --method reference --client './my_tracer --json' --client my.module:intersect
+  raycert bench --section batch --section libraries --out figures
 
-A batch (reference-batch, numpy-*, double-double, oracle-batch, meshes) is priced at thousands of
-rays a call, and by its arrays alone. A client's time is what it takes over the pipe. --out writes
-bench.json, bench.csv and a plot of each scenario (needs ".[plots]"). Ctrl-C ends the run and keeps
-what is measured.
+--out writes bench.json, bench.csv and a plot of each scenario (needs "raycert[plots]").
 
-Exit status: 0 done, 1 interrupted, 2 bad usage, 3 a client could not be run.
+Exit status: 0 done, 1 interrupted, 2 bad usage, 3 a client could not be run, or NumPy is missing.
 """
 
 
-@click.command(help=HELP)
-@click.option("--scenario", "scenarios", multiple=True, help="Only this (repeatable).")
-@click.option("--method", "names", multiple=True, help="Only this method (repeatable).")
-@click.option(
-    "--client", "clients", multiple=True, metavar="CMD", help="This program too (repeatable)."
-)
+@click.command(epilog=EPILOG)
+@repeatable("--section", "sections", "Only this section", type=click.Choice(SECTIONS))
+@repeatable("--scenario", "scenarios", "Only this scenario")
+@ways_options
 @click.option("--quick", is_flag=True, help="Within a minute: few rays, four scenarios.")
 @click.option("--rays", type=click.IntRange(min=4), help="Rays of a scenario.")
-@click.option("--seed", default=1, show_default=True, help="What the rays are drawn from.")
-@click.option(
-    "--out",
-    type=click.Path(file_okay=False, path_type=Path),
-    metavar="DIR",
-    help="Write the rows and the plots there.",
-)
 @click.option("--commands", is_flag=True, help="Time whole commands of raycert as well.")
-@click.option("--list", "listing", is_flag=True, help="List the methods and end.")
+@click.option("--list", "listing", is_flag=True, help="List sections and methods, and end.")
 def bench(**options: Any) -> None:
     """Set the error of many ways to answer rays against their time per ray."""
     if options["listing"]:
         _list()
         return
-    from raycert.oracle.commands.options import check_writable, counting
-    from raycert.oracle.measure.bench.run import run, steps
+    sections = dict.fromkeys(options["sections"] or ("methods",))
+    if options["commands"]:
+        sections["commands"] = None
+    report = run([name for name in SECTIONS if name in sections], options)
+    _show(report)
+    written = _write(report, options["out"]) if options["out"] is not None else []
+    end(report.interrupted, written)
 
-    scenarios = _scenarios(options)
+
+def run(sections: Sequence[str], options: dict[str, Any]) -> Report:
+    """Return what the sections measure. Bad usage is refused before any work."""
+    from raycert.oracle.measure.clock import one_thread
+
+    one_thread()
+    from raycert.oracle.measure import race
+    from raycert.oracle.measure import sections as tables
+    from raycert.oracle.measure.files import Report
+    from raycert.oracle.measure.rays import SETS
+
+    known(options["scenarios"], SETS, "--scenario")
+    for name in sections:
+        _check_needs(name)
     if options["out"] is not None:
         check_writable(options["out"], "--out")
-    methods, notes = _methods(options)
-    effort = _effort(options)
-    with counting("measuring", steps(scenarios, methods, effort)) as advance:
-        report = run(scenarios, methods, effort, options["seed"], advance)
-    report.notes[:0] = notes
-    _show(report)
-    if options["out"] is not None:
-        _write(report, options["out"])
-    if report.interrupted:
-        click.echo("raycert: interrupted; this is what was measured by then", err=True)
-        raise SystemExit(1)
-    if options["commands"]:
-        _time_commands()
+    report = Report(options["seed"], effort(options["quick"], options["rays"]))
+    for name in sections:
+        if report.interrupted:
+            break
+        if name == "methods":
+            sets = options["scenarios"] or (QUICKLY if options["quick"] else tuple(SETS))
+            ways, notes = chosen(options["names"], options["clients"])
+            if options["quick"] and not options["names"]:
+                ways = [way for way in ways if way.precision != "mesh" or _is_quick(way.name)]
+            report.notes += notes
+            with counting("measuring", race.steps(sets, ways, report.effort)) as advance:
+                race.run(sets, ways, report, advance)
+            continue
+        with counting(name, tables.steps(name, report.effort)) as advance:
+            if name == "scalar":
+                tables.run_scalar(report, advance)
+            else:
+                tables.run(name, report, advance)
+    return report
 
 
-def _scenarios(options: dict[str, Any]) -> list[str]:
-    from raycert.oracle.measure.bench.scenarios import SCENARIOS
-
-    for name in options["scenarios"]:
-        if name not in SCENARIOS:
-            raise click.BadParameter(
-                f"{name!r} is none of {', '.join(SCENARIOS)}", param_hint="--scenario"
-            )
-    return list(options["scenarios"] or (QUICKLY if options["quick"] else SCENARIOS))
+def _is_quick(mesh: str) -> bool:
+    return mesh.rpartition("-")[2] in QUICK_SIDES
 
 
-def _effort(options: dict[str, Any]) -> Any:
+def effort(quick: bool, rays: int | None) -> Effort:
+    """Return how much is measured."""
     from dataclasses import replace
 
-    from raycert.oracle.measure.bench.run import FULL, QUICK
+    from raycert.oracle.measure.files import FULL, QUICK
 
-    effort = QUICK if options["quick"] else FULL
-    return effort if options["rays"] is None else replace(effort, rays=options["rays"])
+    effort = QUICK if quick else FULL
+    return effort if rays is None else replace(effort, rays=rays)
 
 
-def _methods(options: dict[str, Any]) -> tuple[list[Method], list[str]]:
-    """Return the methods to run, and notes on those that cannot."""
-    from raycert.oracle.client.dialogue import Unusable
+def _check_needs(name: str) -> None:
     from raycert.oracle.commands.options import stop
-    from raycert.oracle.measure.methods.catalog import BY_NAME, chosen, here
+    from raycert.oracle.measure.sections import SECTIONS
+    from raycert.oracle.measure.way import missing
 
-    for name in options["names"]:
-        if name not in BY_NAME:
-            hint = "raycert bench --list shows all"
-            raise click.BadParameter(f"there is no {name!r}; {hint}", param_hint="--method")
-    try:
-        found = chosen(options["names"], [_words(client) for client in options["clients"]])
-    except Unusable as error:
-        stop(str(error))
-    if options["quick"] and not options["names"]:
-        found = [m for m in found if m.family != "mesh" or _sides(m) in QUICK_SIDES]
-    return here(found)
-
-
-def _words(client: str) -> list[str]:
-    try:
-        words = shlex.split(client)
-    except ValueError as error:
-        raise click.BadParameter(f"{client!r}: {error}", param_hint="--client") from None
-    if not words:
-        raise click.BadParameter("names no program", param_hint="--client")
-    return words
-
-
-def _sides(method: Method) -> str:
-    return method.name.rpartition("-")[2]
+    if name in SECTIONS and (some := missing(SECTIONS[name].needs)):
+        stop(f'{", ".join(some)} missing: pip install "raycert[speed]"')
 
 
 def _list() -> None:
     from rich.console import Console
+
+    from raycert.oracle.measure.catalog import WAYS
+    from raycert.oracle.measure.sections import NAMES
+
+    sections = [(name, NAMES[name]) for name in SECTIONS]
+    ways = [(way.name, way.precision, way.does) for way in WAYS]
+    Console().print(grid(("section", "shows"), (), sections))
+    Console().print(grid(("\nmethod", "\nfamily", "\na method that"), (), ways, wrap=True))
+
+
+def grid(
+    words: Sequence[str], figures: Sequence[str], rows: Sequence[Sequence[str]], wrap: bool = False
+) -> Table:
+    """Return a table: words to the left, figures to the right."""
     from rich.table import Table
 
-    from raycert.oracle.measure.methods.catalog import METHODS
-
-    table = Table("method", "family", "a method that", box=None, pad_edge=False)
-    for method in METHODS:
-        table.add_row(method.name, method.family, method.does)
-    Console().print(table)
+    table = Table(box=None, pad_edge=False)
+    for title in words:
+        table.add_column(title, no_wrap=not wrap)
+    for title in figures:
+        table.add_column(title, justify="right", no_wrap=True)
+    for row in rows:
+        table.add_row(*row)
+    return table
 
 
 def _show(report: Report) -> None:
     from rich.console import Console
 
+    from raycert.oracle.measure.files import place
+    from raycert.oracle.measure.sections import SECTIONS
+
     console = Console(width=max(Console().width, WIDTH))
-    for name in report.scenarios:
-        rows = report.of(name)
-        console.print(f"\n[bold]{name}[/]: {rows[0].rays} rays, seed {report.seed}")
-        console.print(_table(rows))
-    console.print(LEGEND, markup=False)
+    for name, rows in report.sections.items():
+        if name not in SECTIONS:
+            _show_race(name, rows, report.seed, console)
+            continue
+        section = SECTIONS[name]
+        console.print(f"\n[bold]{name}[/]: {section.about}")
+        columns = (*section.words, *section.figures)
+        lines = [[spell(row) for _, spell in columns] for row in rows]
+        words, figures = ([title for title, _ in x] for x in (section.words, section.figures))
+        console.print(grid(words, figures, lines))
+        console.print(section.legend, markup=False)
+    console.print()
     for note in report.notes:
         console.print(note, markup=False)
+    console.print(place(report.seed), markup=False, highlight=False)
 
 
-def _table(rows: list[Row]) -> Any:
-    from rich.table import Table
+def _show_race(name: str, rows: Sequence[Figures], seed: int, console: Any) -> None:
+    """Print a table for each scenario of a race."""
+    for scenario in dict.fromkeys(row.scenario for row in rows):
+        some = [row for row in rows if row.scenario == scenario]
+        lead = "" if name == "methods" else f"{name}, "
+        console.print(f"\n[bold]{lead}{scenario}[/]: {some[0].rays} rays, seed {seed}")
+        times = ("us/ray", "median", "iqr", "ratio")
+        errors = ("ulps", "p99", "k p99", "squared", "rounded", "lost")
+        console.print(grid(("method",), times + errors, [_line(row) for row in some]))
+    console.print(LEGEND, markup=False)
 
-    table = Table(box=None, pad_edge=False)
-    table.add_column("method", no_wrap=True)
-    for title in ("us/ray", "median", "iqr", "ratio", "ulps", "p99", "k p99", "squared", "rounded"):
-        table.add_column(title, justify="right", no_wrap=True)
-    table.add_column("lost", justify="right", no_wrap=True)
-    for r in rows:
-        times = (r.time.best, r.time.median, r.time.iqr)
-        table.add_row(
-            ("*" if r.front else " ") + r.method.name,
-            *(plain(x * 1e6) for x in times),
-            "" if r.ratio is None else plain(r.ratio),
-            _figure(r.ulps_counted, "median"),
-            _figure(r.ulps_counted, "p99"),
-            _figure(r.strict, "p99"),
-            _figure(r.squared, "p99"),
-            str(r.exact),
-            _lost(r),
-        )
-    return table
+
+def _line(row: Figures) -> list[str]:
+    return [
+        ("*" if row.front else " ") + row.way.name,
+        *(short(x * 1e6) for x in (row.time.best, row.time.median, row.time.iqr)),
+        "" if row.ratio is None else short(row.ratio),
+        _figure(row.ulps_counted, "median"),
+        _figure(row.ulps_counted, "p99"),
+        _figure(row.strict, "p99"),
+        _figure(row.squared, "p99"),
+        str(row.exact),
+        f"{row.missed} + {row.phantom} + {row.failures}" if row.lost else "",
+    ]
 
 
 def _figure(spread: Spread | None, name: str) -> str:
-    return "-" if spread is None else plain(getattr(spread, name))
+    return "-" if spread is None else short(getattr(spread, name))
 
 
-def plain(x: float) -> str:
+def short(x: float) -> str:
     """Return a figure in at most six characters: 0.021, 1.5, 312, 1.1e8."""
     if x == 0 or 0.001 <= x < 9999.5 or isinf(x):
         return f"{x:.2g}" if x < 10 else f"{x:.0f}"
@@ -210,29 +243,22 @@ def plain(x: float) -> str:
     return f"{mantissa}e{int(power)}"
 
 
-def _lost(r: Row) -> str:
-    """Return what is lost: pairs missed, pairs that are not there, rays without an answer."""
-    return f"{r.missed} + {r.phantom} + {r.failures}" if r.lost else ""
+def _write(report: Report, folder: Path) -> list[Path]:
+    """Write the rows, and a plot of each scenario; return the paths."""
+    import json
 
+    from raycert.oracle.measure.files import as_csv, place
 
-def _write(report: Report, folder: Path) -> None:
-    from raycert.oracle.measure.bench.files import write
+    written = [folder / "bench.json", folder / "bench.csv"]
+    written[0].write_text(json.dumps(report.as_json(), indent=1) + "\n", encoding="ascii")
+    written[1].write_text(as_csv(report.sections.get("methods", ())), encoding="ascii")
+    with drawing():
+        from raycert.oracle.plots.pareto import draw
+        from raycert.oracle.plots.style import save, styled
 
-    paths, troubles = write(report, folder)
-    for path in paths:
-        click.echo(f"wrote {path}")
-    for trouble in troubles:
-        click.echo(f"raycert: {trouble}", err=True)
-
-
-def _time_commands() -> None:
-    from raycert.oracle.commands.options import counting
-    from raycert.oracle.measure.bench.commands import COMMANDS, command
-
-    rows: list[Whole] = []
-    with counting("timing", len(COMMANDS)) as advance:
-        for line, repeats in COMMANDS:
-            rows.append(command(line, repeats))
-            advance()
-    for whole in rows:
-        click.echo(f"{whole.best:8.2f} s  {whole.name}")
+        for name in report.sets():
+            rows = report.rows(name)
+            with styled():
+                drawn = draw(rows, f"{rows[0].rays} rays, {place(report.seed)}")
+                written += save(drawn, folder, f"bench-{name}")
+    return written

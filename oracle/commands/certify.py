@@ -196,7 +196,7 @@ def _run(plan: Plan) -> Result:
 def _standing(name: str, target: Target, options: dict[str, Any]) -> dict[str, Any]:
     """Measure where the target sits, as far as that is asked."""
     from raycert.oracle.client.dialogue import Unusable
-    from raycert.oracle.measure.standing import in_time, under_stress
+    from raycert.oracle.plots.standing import in_time, under_stress
 
     standing: dict[str, Any] = {"stress": None, "bench": None}
     for option, measure in (("stress", under_stress), ("bench", in_time)):

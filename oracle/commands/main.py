@@ -34,15 +34,14 @@ VERBS: dict[str, dict[str, tuple[str, str]]] = {
         "zoo": ("zoo", "Try planted wrong tracers: who refuses which, and why."),
     },
     "How fast, how far": {
-        "bench": ("bench", "Set error against run time, on the same rays."),
+        "bench": ("bench", "Set error against run time; all figures of speed."),
         "stress": ("stress", "Set error against how stiff the problem is."),
-        "speed": ("speed", "What answers cost beside other ways, as ratios."),
     },
 }
 """By what a person comes for: the verbs, each with its module here (and function, where that is
 not named like it), and what it does."""
 PLACES = {verb: place for group in VERBS.values() for verb, (place, _) in group.items()}
-FORMER: dict[str, str] = {}
+FORMER: dict[str, str] = {"speed": "bench --section batch, scalar, libraries or scenes"}
 """Verbs that went into others, each with what to type now."""
 
 EPILOG = """\b

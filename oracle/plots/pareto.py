@@ -9,16 +9,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import inf
-from pathlib import Path
 from textwrap import fill, shorten
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from raycert.oracle.measure.bench.rows import Row, pareto
-from raycert.oracle.plots.layout import apart
-from raycert.oracle.plots.style import FAINT, INK, LOOKS, PAPER, decades, figure, save, styled
+from raycert.oracle.measure.race import Figures, pareto
+from raycert.oracle.plots.style import FAINT, INK, LOOKS, PAPER, apart, decades, figure
 
 LEAST_ULPS, LEAST_K = 0.5, 1 / 16
 FARTHEST = 1e24
@@ -48,19 +46,15 @@ WORDS = {
     "huge": "scenes 2^500 times as large",
     "boolean": "trees of all solids",
     "ties": "constructed to be hard to round",
+    "axis-aligned": "rays along the coordinate axes",
+    "touching": "rays in tangent planes, small integers",
 }
 
 
-def plot(rows: Sequence[Row], folder: Path, name: str, about: str) -> list[Path]:
-    """Write the plot of one scenario's rows; `about` is the line below it. Return the paths."""
-    with styled():
-        return save(draw(rows, about), folder, name)
-
-
-def draw(rows: Sequence[Row], about: str) -> Figure:
+def draw(rows: Sequence[Figures], about: str) -> Figure:
     """Return the plot of one scenario's rows, one at least. Within `styled`."""
     rows = sorted(rows, key=lambda r: -r.time.best)
-    numbers = {r.method.name: i + 1 for i, r in enumerate(r for r in rows if not _mesh(r))}
+    numbers = {r.way.name: i + 1 for i, r in enumerate(r for r in rows if not _mesh(r))}
     drawn = figure(11.0, 6.9)
     left = drawn.add_axes((0.07, 0.13, 0.335, 0.77))
     right = drawn.add_axes((0.425, 0.13, 0.335, 0.77), sharey=left)
@@ -81,15 +75,15 @@ def draw(rows: Sequence[Row], about: str) -> Figure:
     return drawn
 
 
-def _mesh(row: Row) -> bool:
-    return row.method.family == "mesh"
+def _mesh(row: Figures) -> bool:
+    return row.way.precision == "mesh"
 
 
-def _ulps(row: Row) -> float:
+def _ulps(row: Figures) -> float:
     return max(row.ulps_counted.p99, LEAST_ULPS) if row.ulps_counted else inf
 
 
-def _strict(row: Row) -> float:
+def _strict(row: Figures) -> float:
     return max(row.strict.p99, LEAST_K) if row.strict else inf
 
 
@@ -102,7 +96,7 @@ def _above(axes: Axes, x: float, text: str) -> None:
 
 
 def _panel(
-    axes: Axes, rows: Sequence[Row], numbers: dict[str, int], errors: list[float], least: float
+    axes: Axes, rows: Sequence[Figures], numbers: dict[str, int], errors: list[float], least: float
 ) -> None:
     errors = [x if x < FARTHEST else inf for x in errors]
     finite = [x for x in errors if x < inf]
@@ -126,13 +120,13 @@ def _panel(
     _marks(axes, rows, numbers, places)
 
 
-def _fronts(axes: Axes, rows: Sequence[Row], errors: list[float]) -> None:
+def _fronts(axes: Axes, rows: Sequence[Figures], errors: list[float]) -> None:
     """Draw the front of batches, and that of one ray at a time; what loses rays is on neither."""
     for batch, dash in ((True, (0, (4, 2))), (False, "-")):
         kind = [
             (r.time.best * 1e6, x if not r.lost else inf)
             for r, x in zip(rows, errors, strict=True)
-            if r.method.batch == batch
+            if r.way.batch == batch
         ]
         on = sorted(p for p, front in zip(kind, pareto(kind), strict=True) if front)
         if on:
@@ -142,14 +136,14 @@ def _fronts(axes: Axes, rows: Sequence[Row], errors: list[float]) -> None:
             axes.step(xs, ys, where="post", color=FAINT, linewidth=1.1, linestyle=dash, zorder=1.5)
 
 
-def _meshes(axes: Axes, rows: Sequence[Row], places: list[tuple[float, float]]) -> None:
+def _meshes(axes: Axes, rows: Sequence[Figures], places: list[tuple[float, float]]) -> None:
     """Draw the prisms of each caster as one line, from few sides to many."""
     look = LOOKS["mesh"]
     for caster, shape in CASTERS.items():
         line = [
             (_sides(r), place, r)
             for r, place in zip(rows, places, strict=True)
-            if r.method.name.startswith(caster + "-") and _mesh(r)
+            if r.way.name.startswith(caster + "-") and _mesh(r)
         ]
         line.sort(key=lambda item: item[0])
         if not line:
@@ -175,7 +169,7 @@ def _meshes(axes: Axes, rows: Sequence[Row], places: list[tuple[float, float]]) 
 
 
 def _marks(
-    axes: Axes, rows: Sequence[Row], numbers: dict[str, int], places: list[tuple[float, float]]
+    axes: Axes, rows: Sequence[Figures], numbers: dict[str, int], places: list[tuple[float, float]]
 ) -> None:
     named = [(r, place) for r, place in zip(rows, places, strict=True) if not _mesh(r)]
     to_points = 72 / axes.figure.dpi
@@ -183,16 +177,16 @@ def _marks(
     moved = apart([(float(x), float(y)) for x, y in pixels], MARK + 2.5)
     back = axes.transData.inverted()
     for (r, (x, y)), at in zip(named, moved, strict=True):
-        look = LOOKS[r.method.family]
+        look = LOOKS[r.way.precision]
         axes.plot([x, x], [y, r.time.median * 1e6], color=look.color, linewidth=1.2, zorder=2.5)
         u, v = back.transform((at[0] / to_points, at[1] / to_points))
         axes.plot([x, u], [y, v], color=INK, linewidth=0.6, zorder=2.6)
         axes.plot([x], [y], ".", color=INK, markersize=2.5, zorder=2.7)
-        _numbered(axes, (float(u), float(v)), numbers[r.method.name], r)
+        _numbered(axes, (float(u), float(v)), numbers[r.way.name], r)
 
 
-def _numbered(axes: Any, place: tuple[float, float], number: int, row: Row) -> None:
-    look = LOOKS[row.method.family]
+def _numbered(axes: Any, place: tuple[float, float], number: int, row: Figures) -> None:
+    look = LOOKS[row.way.precision]
     inside, ink = (PAPER, look.color) if row.lost else (look.color, PAPER)
     ink = INK if row.lost else ink
     size = MARK * SIZES.get(look.mark, 1.0)
@@ -209,7 +203,7 @@ def _numbered(axes: Any, place: tuple[float, float], number: int, row: Row) -> N
     )  # fmt: skip
 
 
-def _names(drawn: Any, rows: Sequence[Row], numbers: dict[str, int]) -> None:
+def _names(drawn: Any, rows: Sequence[Figures], numbers: dict[str, int]) -> None:
     """List the numbered methods, slow ones first, with what they get right, lose and cost."""
     axes = drawn.add_axes((0.768, 0.10, 0.23, 0.82))
     axes.set_axis_off()
@@ -219,11 +213,11 @@ def _names(drawn: Any, rows: Sequence[Row], numbers: dict[str, int]) -> None:
     for x, word in ((0.12, "method"), *zip(COLUMNS, ("rounded", "lost", "ratio"), strict=True)):
         axes.text(x, -0.7, word, size=7.5, color=FAINT, ha="left" if x == 0.12 else "right")
     for i, r in enumerate(named):
-        _numbered(axes, (0.05, i), numbers[r.method.name], r)
-        _line(axes, i, r, shorten(r.method.name, 22, placeholder=" ..."))
+        _numbered(axes, (0.05, i), numbers[r.way.name], r)
+        _line(axes, i, r, shorten(r.way.name, 22, placeholder=" ..."))
     at = len(named)
     for caster, mark in CASTERS.items():
-        each = [r for r in meshes if r.method.name.startswith(caster + "-")]
+        each = [r for r in meshes if r.way.name.startswith(caster + "-")]
         if each:
             finest = max(each, key=_sides)
             axes.plot(
@@ -236,7 +230,7 @@ def _names(drawn: Any, rows: Sequence[Row], numbers: dict[str, int]) -> None:
         axes.text(0.0, at + 0.6 + 0.75 * i, text, size=7.3, color=FAINT, va="center")
 
 
-def _line(axes: Any, y: float, r: Row, name: str) -> None:
+def _line(axes: Any, y: float, r: Figures, name: str) -> None:
     ratio = "" if r.ratio is None else f"{r.ratio:.0f}" if r.ratio >= 10 else f"{r.ratio:.2g}"
     figures = f"{100 * r.exact // r.rays}%", str(r.lost or ""), ratio
     axes.text(0.12, y, name, size=7.8, color=INK, va="center")
@@ -244,5 +238,5 @@ def _line(axes: Any, y: float, r: Row, name: str) -> None:
         axes.text(x, y, figure_, size=8, color=INK, va="center", ha="right")
 
 
-def _sides(row: Row) -> int:
-    return int(row.method.name.rpartition("-")[2])
+def _sides(row: Figures) -> int:
+    return int(row.way.name.rpartition("-")[2])

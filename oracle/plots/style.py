@@ -6,10 +6,11 @@ drawn as outlines in the font that comes with matplotlib, and no file holds a da
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import StringIO
+from math import cos, hypot, pi, sin
 from pathlib import Path
 from typing import Any
 
@@ -126,3 +127,33 @@ def plain(x: float) -> str:
         return f"{x:g}"
     mantissa, _, power = f"{x:.0e}".partition("e")
     return f"{mantissa}e{int(power)}"
+
+
+# Marks that do not overlap: each as near to where it belongs as the others let it.
+
+Place = tuple[float, float]
+TURNS = 24
+
+
+def apart(places: Sequence[Place], distance: float) -> list[Place]:
+    """Return places that keep a distance from each other; the first of a crowd stays.
+
+    Each goes to the nearest free place on circles around its own: of equals, the leftmost.
+    """
+    kept: list[Place] = []
+    for place in places:
+        kept.append(next(p for p in _around(place, distance) if _free(p, kept, distance)))
+    return kept
+
+
+def _free(place: Place, taken: Sequence[Place], distance: float) -> bool:
+    return all(hypot(place[0] - x, place[1] - y) >= distance * (1 - 1e-9) for x, y in taken)
+
+
+def _around(place: Place, distance: float) -> list[Place]:
+    steps = [distance * (1 + k / 4) for k in range(40)]
+    return [place] + [
+        (place[0] + r * cos(2 * pi * i / TURNS), place[1] + r * sin(2 * pi * i / TURNS))
+        for r in steps
+        for i in range(TURNS)
+    ]

@@ -2,8 +2,6 @@
 
     {"task": "render", "scene": {...}, "show": "depth", "tracer": "reference", "off": []}
         -> an .npz: `values`, or `enter`, `leave` and `count` for "lists"; and `about`, as JSON
-    {"task": "plan", "scene": {...}, "show": "depth", "repeats": 3}   -> JSON
-    {"task": "costs", "size": [96, 72], "repeats": 3, "most": 1000}   -> JSON
 
 The scene is as `cases.scene` writes it. A command that started it has checked what it sends.
 """
@@ -12,7 +10,6 @@ from __future__ import annotations
 
 import json
 import sys
-from dataclasses import asdict
 from io import BytesIO
 from time import perf_counter
 from typing import Any
@@ -20,8 +17,7 @@ from typing import Any
 import numpy as np
 
 from raycert.cases.scene import Scene, read_scene
-from raycert.reference.arrays.items import ITEMS, Item
-from raycert.reference.arrays.measure import costs, worth
+from raycert.reference.arrays.items import ITEMS
 from raycert.reference.arrays.picture import lists, picture
 from raycert.reference.arrays.plan import Plan, plan
 
@@ -56,34 +52,11 @@ def _packed(arrays: dict[str, np.ndarray[Any, Any]]) -> bytes:
     return file.getvalue()
 
 
-def explain(scene: Scene, task: dict[str, Any]) -> dict[str, Any]:
-    """Return what each item is worth, as data."""
-    found, whole = worth(scene, task["show"], task["repeats"])
-    rows = [_row(w.item) | {"with": w.with_it, "without": w.without} for w in found]
-    return {"items": rows, "planned": whole.planned, "plain": whole.plain}
-
-
-def _row(item: Item) -> dict[str, Any]:
-    return {
-        "name": item.name,
-        "leaves_out": item.leaves_out,
-        "applies": item.applies,
-        "why": item.why,
-    }
-
-
 def main() -> None:
     """Do the task on standard input."""
     task = json.load(sys.stdin)
-    match task["task"]:
-        case "render":
-            sys.stdout.buffer.write(render(read_scene(task["scene"]), task))
-        case "plan":
-            json.dump(explain(read_scene(task["scene"]), task), sys.stdout)
-        case "costs":
-            size = (task["size"][0], task["size"][1])
-            found = costs(size, task["repeats"], task["most"])
-            json.dump([asdict(cost) for cost in found], sys.stdout)
+    assert task["task"] == "render"
+    sys.stdout.buffer.write(render(read_scene(task["scene"]), task))
 
 
 if __name__ == "__main__":

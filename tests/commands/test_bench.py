@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 from click.testing import CliRunner, Result
 
-from raycert.oracle.commands.bench import bench, plain
-from raycert.oracle.measure.bench import commands as whole
-from raycert.oracle.measure.bench import timing
-from raycert.oracle.measure.bench.commands import Whole
-from raycert.oracle.measure.methods.catalog import METHODS
-from raycert.oracle.measure.methods.method import Case, Method
+from raycert.oracle.commands.bench import SECTIONS, bench, short
+from raycert.oracle.commands.main import main
+from raycert.oracle.measure import clock, files, sections
+from raycert.oracle.measure.catalog import WAYS
+from raycert.oracle.measure.clock import Timed
+from raycert.oracle.measure.files import Effort
 
 ONE = ("--scenario", "random", "--rays", "8", "--quick")
 
@@ -56,9 +57,11 @@ def test_a_client_runs_beside_the_methods() -> None:
 @pytest.mark.parametrize(
     ("words", "status", "text"),
     [
-        (("--scenario", "nowhere"), 2, "none of random"),
+        (("--scenario", "nowhere"), 2, "there is no 'nowhere'; there are random"),
         (("--method", "guess"), 2, "there is no 'guess'"),
         (("--rays", "0"), 2, "--rays"),
+        (("--section", "memory"), 2, "'memory' is not one of"),
+        (("--seed", "-1"), 2, "--seed"),
         (("--client", "no-such-program"), 3, "cannot start"),
         (("--client", "'unclosed"), 2, "--client"),
         (("--client", ""), 2, "--client"),
@@ -77,17 +80,48 @@ def test_an_unwritable_folder_is_refused_first(tmp_path: Path) -> None:
     assert "cannot write" in found.output
 
 
-def test_the_methods_are_listed() -> None:
+def test_sections_and_methods_are_listed() -> None:
     found = run("--list")
     assert found.exit_code == 0
-    assert all(method.name in found.output for method in METHODS)
+    assert all(name in found.output for name in (*SECTIONS, *(way.name for way in WAYS)))
 
 
 def test_whole_commands_are_timed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(whole, "COMMANDS", (("--help", 1),))
-    monkeypatch.setattr(whole, "command", lambda line, repeats: Whole("raycert " + line, 0.25, 0.5))
+    monkeypatch.setattr(sections, "COMMANDS", (("--help", 1),))
     found = run(*ONE, "--method", "oracle", "--commands")
-    assert "0.25 s  raycert --help" in found.output
+    assert "raycert --help" in found.output
+    assert found.output.index("random: 8 rays") < found.output.index("raycert --help")
+
+
+def test_sections_come_in_one_order_and_are_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(files, "QUICK", Effort(4, 2, 1, 0.1, 500, (6, 4), (8, 6), 2, 4))
+    out = tmp_path / "new"
+    words = ("--section", "scenes", "--section", "batch", "--quick", "--seed", "3")
+    found = run(*words, "--out", str(out))
+    assert found.exit_code == 0, found.output
+    form = json.loads((out / "bench.json").read_text())
+    assert list(form["sections"]) == ["batch", "scenes"]
+    assert form["seed"] == 3
+    assert form["rows"] == []
+    assert all(form["sections"].values())
+    assert found.output.index("naive") < found.output.index("with nothing left out")
+    assert "seed 3" in found.output
+
+
+def test_without_numpy_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("raycert.oracle.measure.way.find_spec", lambda name: None)
+    found = run("--section", "scenes")
+    assert found.exit_code == 3
+    assert "raycert[speed]" in found.output
+
+
+def test_the_words_that_went_say_where() -> None:
+    for verb, words in (("speed", ["--quick"]), ("plan", ["--solids", "9"])):
+        found = CliRunner().invoke(main, [verb, *words])
+        assert found.exit_code == 2
+        assert "bench --section" in found.output
 
 
 @pytest.mark.parametrize(
@@ -96,7 +130,7 @@ def test_whole_commands_are_timed(monkeypatch: pytest.MonkeyPatch) -> None:
      (float("inf"), "inf"), (9.96, "10")],
 )  # fmt: skip
 def test_figures_are_short(x: float, text: str) -> None:
-    assert plain(x) == text
+    assert short(x) == text
 
 
 def test_an_interruption_keeps_what_is_measured(
@@ -105,13 +139,13 @@ def test_an_interruption_keeps_what_is_measured(
     """In the third pass: both methods have one, the first has two."""
     passes: list[float] = []
 
-    def once(method: Method, cases: Sequence[Case]) -> float:
+    def processor(call: Callable[[], Any]) -> Timed:
         if len(passes) == 3:
             raise KeyboardInterrupt
         passes.append(0.5)
-        return passes[-1]
+        return Timed(0.5)
 
-    monkeypatch.setattr(timing, "once", once)
+    monkeypatch.setattr(clock, "processor", processor)
     found = run(*ONE, "--method", "oracle", "--method", "textbook", "--out", str(tmp_path))
     assert found.exit_code == 1
     assert "interrupted" in found.output

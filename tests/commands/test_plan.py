@@ -35,20 +35,12 @@ def test_as_data() -> None:
     assert items["first"]["why"] == "count asks for whole lists"
 
 
-def test_the_cost_of_a_crowd() -> None:
-    result = run("--solids", "5", "--size", "16x12", "--repeats", "1", "--json")
-    form = json.loads(result.output)
-    assert [cost["solids"] for cost in form["costs"]] == [1, 2, 5]
-    assert all(cost["planned"] > 0 < cost["plain"] for cost in form["costs"])
-    assert "nothing left out" in run("--solids", "2", "--size", "8x8", "--repeats", "1").output
-
-
 @pytest.mark.parametrize(
     ("words", "message"),
     [
         ((), "name a scene"),
-        (("die", "--solids", "3"), "leave SCENE out"),
-        (("--solids", "3", "--size", "axb"), "--size[0]: is not a whole number"),
+        (("--solids", "3"), "raycert bench --section scenes"),
+        (("die", "--size", "axb"), "is not WxH"),
         (("die", "--show", "error"), "Invalid value for '--show'"),
     ],
 )

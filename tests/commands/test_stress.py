@@ -59,7 +59,7 @@ def test_a_client_stands_beside_the_built_in() -> None:
 @pytest.mark.parametrize(
     ("words", "status", "text"),
     [
-        (("--sweep", "nowhere"), 2, "'nowhere' is none of far,"),
+        (("--sweep", "nowhere"), 2, "there is no 'nowhere'; there are far,"),
         (("--method", "nobody"), 2, "there is no 'nobody'"),
         (("--client", "no-such-program-here"), 3, "no-such-program-here"),
         (("--workers", "0"), 2, "--workers"),
@@ -74,7 +74,7 @@ def test_what_cannot_be_run_is_refused(words: tuple[str, ...], status: int, text
 def test_an_interrupted_run_writes_what_it_has(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from raycert.oracle.measure.stress import run as module
+    from raycert.oracle.measure import curves as module
 
     walk, done = module.walk, []
 

@@ -13,29 +13,33 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 pytest.importorskip("matplotlib")
-from raycert.oracle.measure.bench.errors import Error
-from raycert.oracle.measure.bench.rows import Row, row
-from raycert.oracle.measure.bench.timing import Time
-from raycert.oracle.measure.methods.catalog import METHODS, by_name
-from raycert.oracle.plots.layout import apart
-from raycert.oracle.plots.pareto import MARK, draw, plot
-from raycert.oracle.plots.style import LOOKS, PAPER, SERIES, figure, plain, save, styled
+from raycert.oracle.measure.catalog import BY_NAME, WAYS
+from raycert.oracle.measure.clock import Time
+from raycert.oracle.measure.errors import Error
+from raycert.oracle.measure.race import Figures, figures
+from raycert.oracle.plots.pareto import MARK, draw
+from raycert.oracle.plots.style import LOOKS, PAPER, SERIES, apart, figure, plain, save, styled
 
-GOOD, LOST = Error(1.5, 1e-16), Error(inf, inf, missed=1)
+GOOD, LOST = Error(1.5), Error(inf, -1)
 
 
-def made(name: str, best: float, errors: list[Error], k: float = 0.5) -> Row:
+def plot(rows: list[Figures], folder: Path, name: str, about: str) -> list[Path]:
+    with styled():
+        return save(draw(rows, about), folder, name)
+
+
+def made(name: str, best: float, errors: list[Error], k: float = 0.5) -> Figures:
     time = Time(best, 1.5 * best, 0.1 * best, 5, 40)
-    plain = row("far", by_name(name), time, errors, ([k] * 4, [k] * 4))
+    plain = figures("far", BY_NAME[name], time, errors, (), ([k] * 4, [k] * 4))
     return replace(plain, ratio=best / 1e-4)
 
 
-def all_rows() -> list[Row]:
+def all_rows() -> list[Figures]:
     """A crowd: every method, many at one place, some with losses, one with nothing but."""
     found = []
-    for i, method in enumerate(METHODS):
+    for i, way in enumerate(WAYS):
         errors = [GOOD, *[LOST] * 100] if i % 5 == 2 else [LOST] if i == 8 else [GOOD]
-        found.append(made(method.name, 1e-5 if i < 8 else 1e-6 * (i + 1), errors, 10.0 ** (i % 4)))
+        found.append(made(way.name, 1e-5 if i < 8 else 1e-6 * (i + 1), errors, 10.0 ** (i % 4)))
     return found
 
 
@@ -67,14 +71,14 @@ def marks(axes: Any) -> list[Any]:
 
 def test_every_method_stands_in_both_panels_and_in_the_list() -> None:
     rows = all_rows()
-    named = [r for r in rows if r.method.family != "mesh"]
+    named = [r for r in rows if r.way.precision != "mesh"]
     with styled():
         drawn = draw(rows, "about")
     left, right, listed = drawn.axes
     assert len(marks(left)) == len(marks(right)) == len(marks(listed)) == len(named)
     said = texts(drawn)
     for r in named:
-        assert r.method.name in said
+        assert r.way.name in said
     assert {str(i + 1) for i in range(len(named))} <= set(said)
     assert {"trimesh n=4096", "embree n=4096"} <= set(said)
 
@@ -121,13 +125,13 @@ def test_what_loses_rays_is_hollow_and_what_loses_all_stands_at_the_edge() -> No
 
 
 def test_nothing_lost_and_nothing_measured_can_be_drawn(tmp_path: Path) -> None:
-    bare = row("ties", by_name("oracle"), Time(1e-4, 1e-4, 0.0, 1, 4), [LOST])
+    bare = figures("ties", BY_NAME["oracle"], Time(1e-4, 1e-4, 0.0, 1, 4), [LOST])
     assert [path.suffix for path in plot([bare], tmp_path, "bare", "")] == [".svg", ".png"]
 
 
 @pytest.mark.parametrize("k", [1e300, inf])
 def test_errors_beyond_all_bounds_can_be_drawn(tmp_path: Path, k: float) -> None:
-    wild = [made("oracle", 1e-4, [GOOD], 0.5), made("textbook", 1e-5, [Error(1e307, 1.0)], k)]
+    wild = [made("oracle", 1e-4, [GOOD], 0.5), made("textbook", 1e-5, [Error(1e307)], k)]
     assert len(plot(wild, tmp_path, "wild", "")) == 2
 
 

@@ -31,10 +31,10 @@ from raycert.cases.scene import (
     write_scene,
 )
 from raycert.cases.strategies import solids
+from raycert.oracle.measure.pictures import crowd, worth
 from raycert.reference import tracer
 from raycert.reference.arrays import bounds, picture
 from raycert.reference.arrays.items import ITEMS, Show
-from raycert.reference.arrays.measure import crowd, worth
 from raycert.reference.arrays.plan import plan
 from raycert.reference.arrays.rays import rays, tiles
 from raycert.reference.arrays.vectors import Array
@@ -240,12 +240,12 @@ def test_the_textbook_loses_a_far_scene() -> None:
 
 def test_worth_is_measured_for_what_applies() -> None:
     scene = replace(load("pipe"), size=(8, 6))
-    found, whole = worth(scene, "depth", repeats=1)
+    found, (planned, plain) = worth(scene, "depth", repeats=1)
     assert [w.item.name for w in found] == list(ITEMS)
     for w in found:
         assert (w.with_it > 0) == (w.without > 0) == w.item.applies
         assert w.item.why
-    assert whole.planned > 0 < whole.plain
+    assert planned > 0 < plain
 
 
 def test_a_crowd_is_a_scene() -> None:
