@@ -8,7 +8,7 @@ thousandth bit.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Literal
 
 from raycert.cases.case import Tier
@@ -102,34 +102,29 @@ def _beyond(shots: Iterable[Shot], what: What, k: int, slug: str) -> Iterator[Sh
     return _scaled(shots, what, k, slug, flag, tier="range")
 
 
-def _directions(fmt: Format) -> Iterator[Shot]:
-    for k in scales(fmt, 40, 12, 8, 4):
-        if k:
-            yield from _scaled(LEAVES, "direction", k, power(k))
+Leg = tuple[tuple[Shot, ...], What, str, tuple[int, ...]]
+"""Shots, what is scaled, how a slug begins, and the steps: of `scales`, or of `ends`."""
 
 
-def _scenes(fmt: Format) -> Iterator[Shot]:
-    for k in scales(fmt, 100, 15, 20, 5):
-        if k:
-            yield from _scaled(LEAVES, "scene", k, power(k))
+def _ladder(*legs: Leg) -> Callable[[Format], Iterator[Shot]]:
+    """Return the shots scaled as far as a level counts."""
+    return lambda fmt: (
+        shot
+        for shots, what, prefix, (reach64, reach32, step64, step32) in legs
+        for k in scales(fmt, reach64, reach32, step64, step32)
+        if k
+        for shot in _scaled(shots, what, k, prefix + power(k))
+    )
 
 
-def _spheres(fmt: Format) -> Iterator[Shot]:
-    for k in scales(fmt, 40, 12, 10, 4):
-        if k:
-            yield from _scaled(SPHERES, "direction", k, f"direction-{power(k)}")
-    for k in scales(fmt, 100, 15, 25, 5):
-        if k:
-            yield from _scaled(SPHERES, "scene", k, f"scene-{power(k)}")
-
-
-def _trees(fmt: Format) -> Iterator[Shot]:
-    for k in scales(fmt, 40, 12, 20, 6):
-        if k:
-            yield from _scaled(TREES, "direction", k, f"speed-{power(k)}")
-    for k in scales(fmt, 100, 15, 50, 5):
-        if k:
-            yield from _scaled(TREES, "scene", k, f"size-{power(k)}")
+def _range(*legs: Leg) -> Callable[[Format], Iterator[Shot]]:
+    """Return the shots scaled beyond."""
+    return lambda fmt: (
+        shot
+        for shots, what, prefix, (first, step) in legs
+        for k in ends(fmt, first, step)
+        for shot in _beyond(shots, what, k, prefix + power(k))
+    )
 
 
 def ends(fmt: Format, first: int = 0, step: int = 1) -> Iterator[int]:
@@ -141,16 +136,9 @@ def ends(fmt: Format, first: int = 0, step: int = 1) -> Iterator[int]:
         yield from (k, -k)
 
 
-def _range_scenes(fmt: Format) -> Iterator[Shot]:
-    for k in ends(fmt):
-        shots = (LEAVES[0], LEAVES[1], LEAVES[4])
-        yield from _beyond(shots, "scene", k, f"scene-{power(k)}")
-
-
 def _range_directions(fmt: Format) -> Iterator[Shot]:
-    for k in ends(fmt, 0, 2):
-        shots = (LEAVES[0], LEAVES[3], LEAVES[5], LEAVES[6])
-        yield from _beyond(shots, "direction", k, f"direction-{power(k)}")
+    shots = (LEAVES[0], LEAVES[3], LEAVES[5], LEAVES[6])
+    yield from _range((shots, "direction", "direction-", (0, 2)))(fmt)
     yield from _endpoints(fmt)
 
 
@@ -194,13 +182,6 @@ def _range_spheres(fmt: Format) -> Iterator[Shot]:
             shots = (SPHERES[1], SPHERES[2])
             yield from _beyond(shots, "direction", k, f"direction-{power(k)}")
     yield from _subnormal(fmt, SPHERES)
-
-
-def _range_trees(fmt: Format) -> Iterator[Shot]:
-    for k in ends(fmt, 1, 3):
-        yield from _beyond(TREES, "scene", k, f"size-{power(k)}")
-    for k in ends(fmt, 4, 6):
-        yield from _beyond(TREES, "direction", k, f"speed-{power(k)}")
 
 
 START = 6
@@ -343,23 +324,26 @@ def _sphere_ties(fmt: Format) -> Iterator[Shot]:
 
 
 FAMILIES = (
-    family("direction-scale", "|direction| from 2^-40 to 2^40.", _directions),
-    family("scene-scale", "Scenes from 2^-100 to 2^100 times their size.", _scenes),
-    family("range-scenes", "Scenes whose squares leave the range.", _range_scenes),
-    family(
-        "range-directions", "Directions whose squares leave the range.", _range_directions,
-        tier="range",
-    ),
-    family(
-        "range-subnormal", "Scenes and directions of subnormal numbers.", _subnormal, tier="range"
-    ),
-    family("sphere-scale", "Directions and scenes from very small to very large.", _spheres),
-    family(
-        "range-sphere", "Spheres and directions whose squares leave the range.", _range_spheres,
-        tier="range",
-    ),
-    family("csg-scale", "Trees very small and very large.", _trees),
-    family("range-csg", "Trees whose squares leave the range.", _range_trees),
+    family("direction-scale", "|direction| from 2^-40 to 2^40.",
+           _ladder((LEAVES, "direction", "", (40, 12, 8, 4)))),
+    family("scene-scale", "Scenes from 2^-100 to 2^100 times their size.",
+           _ladder((LEAVES, "scene", "", (100, 15, 20, 5)))),
+    family("range-scenes", "Scenes whose squares leave the range.",
+           _range(((LEAVES[0], LEAVES[1], LEAVES[4]), "scene", "scene-", (0, 1)))),
+    family("range-directions", "Directions whose squares leave the range.", _range_directions,
+           tier="range"),
+    family("range-subnormal", "Scenes and directions of subnormal numbers.", _subnormal,
+           tier="range"),
+    family("sphere-scale", "Directions and scenes from very small to very large.",
+           _ladder((SPHERES, "direction", "direction-", (40, 12, 10, 4)),
+                   (SPHERES, "scene", "scene-", (100, 15, 25, 5)))),
+    family("range-sphere", "Spheres and directions whose squares leave the range.",
+           _range_spheres, tier="range"),
+    family("csg-scale", "Trees very small and very large.",
+           _ladder((TREES, "direction", "speed-", (40, 12, 20, 6)),
+                   (TREES, "scene", "size-", (100, 15, 50, 5)))),
+    family("range-csg", "Trees whose squares leave the range.",
+           _range((TREES, "scene", "size-", (1, 3)), (TREES, "direction", "speed-", (4, 6)))),
     family("rounding-ties", "Endpoints exactly halfway between two numbers.", _ties, tier="stiff"),
     family("rounding-hard", "Ties moved by 2^-2j, j up to 500.", ladder(shifts, _hard),
            tier="stiff"),

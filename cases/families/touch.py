@@ -274,9 +274,11 @@ def _in_cap_plane(_: Format) -> Iterator[Shot]:
         ):
             for start, x in (("outside", -8), ("inside", 0), ("past", 8)):
                 known = MISS if half is None else between(x, 4, -half, half)
-                text_ = f"A ray in the cap plane of {cap} runs {text}, start {start}"
-                slug = f"cap-{cap}-{name}-{start}"
-                yield Shot(slug, text_, body, (x, y, z), (4, 0, 0), known)
+                yield Shot(
+                    f"cap-{cap}-{name}-{start}",
+                    f"A ray in the cap plane of {cap} runs {text}, start {start}",
+                    body, (x, y, z), (4, 0, 0), known,
+                )  # fmt: skip
 
 
 def _parallel(fmt: Format) -> Iterator[Shot]:
