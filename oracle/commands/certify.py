@@ -219,7 +219,7 @@ def _wanted(options: dict[str, Any]) -> dict[str, str]:
 
 def write_reports(certificate: dict[str, Any], reports: dict[str, str]) -> None:
     """Write a certificate in each form (a key of WRITERS) to its file; `-` is standard output."""
-    from raycert.oracle.reports.write import WRITERS
+    from raycert.oracle.reports.page import WRITERS
 
     for form, out in reports.items():
         write_text(out, WRITERS[form](certificate))
@@ -261,7 +261,7 @@ def report(certificate: Path, **options: str | None) -> None:
 
 
 def _read(path: Path) -> dict[str, Any]:
-    from raycert.oracle.reports.form import BadCertificate, check
+    from raycert.oracle.reports.reading import BadCertificate, check
 
     try:
         return check(json.loads(path.read_bytes()))

@@ -17,8 +17,8 @@ from raycert.oracle.explain.form import Fact, Note, Step, Table, numbers, shorte
 from raycert.oracle.explain.one_case import Asked
 from raycert.oracle.explain.text import case_lines
 from raycert.oracle.judge.answer import First, YesNo
-from raycert.oracle.reports.template import render
-from raycert.oracle.reports.text import clean, number
+from raycert.oracle.reports.page import render
+from raycert.oracle.reports.reading import clean, number
 
 Json = dict[str, Any]
 LONG = 4000

@@ -15,12 +15,18 @@ from raycert.cases.accept import Accept, Numbers
 from raycert.cases.formats import Format
 from raycert.cases.row import End, GoldenRow
 from raycert.oracle.reports.numberline import (
+    GUTTER,
+    PLOT,
     ROW,
+    WIDTH,
     Axis,
+    CaseLists,
     Lane,
-    Lists,
     Pairs,
+    drawing,
+    el,
     known,
+    label,
     lanes,
     ticks,
     ulp,
@@ -36,10 +42,8 @@ from raycert.oracle.reports.picture import (
     pointer,
     ray_height,
 )
-from raycert.oracle.reports.scene import Scene
-from raycert.oracle.reports.svg import GUTTER, PLOT, WIDTH, drawing, el, label
-from raycert.oracle.reports.text import clean
-from raycert.oracle.reports.views import View, views
+from raycert.oracle.reports.reading import clean
+from raycert.oracle.reports.section import Section, View, views
 
 ENDS = 8
 """At how many ends there is a close look."""
@@ -81,17 +85,17 @@ def _number(x: float) -> Fraction | float:
     return Fraction(x) if isfinite(x) else x
 
 
-def lists(row: GoldenRow, accept: Accept) -> Lists:
+def lists(row: GoldenRow, accept: Accept) -> CaseLists:
     """Return the exact list of a row, and what is accepted."""
     exact = tuple((_end(span.enter), _end(span.leave)) for span in row.intervals)
-    return Lists(exact, numbers(accept.inner) or (), numbers(accept.outer) or (), None)
+    return CaseLists(exact, numbers(accept.inner) or (), numbers(accept.outer) or (), None)
 
 
 def _end(end: End) -> Fraction | float:
     return float("inf") if end.digits == "inf" else Fraction(end.digits)
 
 
-def wholes(row: GoldenRow, all_lists: Lists, said: Sequence[Said]) -> Drawn:
+def wholes(row: GoldenRow, all_lists: CaseLists, said: Sequence[Said]) -> Drawn:
     """Return the views of a case; under the first of them are the intervals over t."""
     ends = all_lists.finite(all_lists.exact)
     found = views(row.solid, row.ray, ends)
@@ -99,17 +103,17 @@ def wholes(row: GoldenRow, all_lists: Lists, said: Sequence[Said]) -> Drawn:
     return drawings + [_alone(view, all_lists) for view in found[1:]]
 
 
-def _lined(view: View | None, all_lists: Lists, said: Sequence[Said]) -> tuple[str, str]:
+def _lined(view: View | None, all_lists: CaseLists, said: Sequence[Said]) -> tuple[str, str]:
     """Return a view over the intervals, both on one scale of t; without one the intervals."""
     still = view is not None and view.still
-    axis = whole(all_lists) if view is None or still else axis_of(view.scene)
+    axis = whole(all_lists) if view is None or still else axis_of(view.section)
     top = 4.0 if view is None else TALL + GAP
     parts: list[Element] = []
     if view is not None:
-        parts += drawn(view.scene, axis_of(view.scene), view.still)
+        parts += drawn(view.section, axis_of(view.section), view.still)
     if view is not None and not still:
         parts += guides(all_lists.finite(all_lists.exact), axis, top + ROW)
-        parts += _inside(view.scene, axis, all_lists.exact)
+        parts += _inside(view.section, axis, all_lists.exact)
     shown = (*known(all_lists), *(one.lane for one in said))
     foot = top + len(shown) * ROW
     scale, offset = _scale(axis, foot)
@@ -133,7 +137,7 @@ def _scale(axis: Axis, foot: float) -> tuple[list[Element], str]:
     return scale, f" - c, c = {float(base):.17g}" if base else ""
 
 
-def _inside(scene: Scene, axis: Axis, exact: Pairs) -> Iterator[Element]:
+def _inside(scene: Section, axis: Axis, exact: Pairs) -> Iterator[Element]:
     """Yield the parts of the ray that are in the solid, a touch as a dot."""
     y = ray_height(scene)
     for enter, leave in exact:
@@ -144,20 +148,20 @@ def _inside(scene: Scene, axis: Axis, exact: Pairs) -> Iterator[Element]:
             yield el("circle", cx=a, cy=y, r=4, kind="exact")
 
 
-def _alone(view: View, all_lists: Lists) -> tuple[str, str]:
+def _alone(view: View, all_lists: CaseLists) -> tuple[str, str]:
     """Return a view with a scale of its own, the exact ends on it."""
-    axis = axis_of(view.scene)
-    parts = list(drawn(view.scene, axis, view.still))
+    axis = axis_of(view.section)
+    parts = list(drawn(view.section, axis, view.still))
     if view.still:
         return view.name, drawing(TALL + 4, view.name, *parts)
     scale, offset = _scale(axis, TALL)
     parts += guides(all_lists.finite(all_lists.exact), axis, TALL)
-    parts += [*_inside(view.scene, axis, all_lists.exact), *scale]
+    parts += [*_inside(view.section, axis, all_lists.exact), *scale]
     caption = view.name + (f", over t{offset}" if offset else "")
     return caption, drawing(TALL + 20, caption, *parts)
 
 
-def closeups(row: GoldenRow, all_lists: Lists, said: Sequence[Said], fmt: Format) -> Drawn:
+def closeups(row: GoldenRow, all_lists: CaseLists, said: Sequence[Said], fmt: Format) -> Drawn:
     """Return a close look at each exact end but 0 and infinity, up to `ENDS` of them.
 
     An end that is on the one before is not looked at again.
@@ -180,7 +184,7 @@ def closeups(row: GoldenRow, all_lists: Lists, said: Sequence[Said], fmt: Format
 def _close(
     end: End,
     name: str,
-    all_lists: Lists,
+    all_lists: CaseLists,
     answers: tuple[Sequence[Said], Sequence[Fraction | None]],
     fmt: Format,
 ) -> tuple[str, str]:
@@ -202,7 +206,7 @@ def _close(
 
 
 def _off(
-    one: Said, end: End, place: tuple[int, int], all_lists: Lists, fmt: Format
+    one: Said, end: End, place: tuple[int, int], all_lists: CaseLists, fmt: Format
 ) -> Fraction | None:
     """Return how far an answer's end is from the number at an exact one, in ulps.
 

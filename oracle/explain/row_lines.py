@@ -19,7 +19,7 @@ def row_steps(row: GoldenRow, fmt: Format) -> Iterator[Step]:
         touch = f", a touch ({span.touch})" if span.touch else ""
         enter, leave = _end("enter", span.enter, fmt), _end("leave", span.leave, fmt)
         yield Step(f"Exact interval {i} of {len(row.intervals)}{touch}", (*enter, *leave))
-    yield Step("Lists", tuple(_lists(row, fmt)))
+    yield Step("CaseLists", tuple(_lists(row, fmt)))
 
 
 def _facts(row: GoldenRow) -> Iterator[Fact]:

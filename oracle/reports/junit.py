@@ -12,14 +12,16 @@ from typing import Any
 from raycert.oracle.reports.reading import (
     asked,
     by_family,
+    clean,
+    count,
     failing,
     fault,
+    intervals,
     said,
     subject,
     surprises,
     verdict,
 )
-from raycert.oracle.reports.text import clean, count, intervals
 
 Json = dict[str, Any]
 SHOWN = 20

@@ -11,8 +11,11 @@ from typing import Any
 from raycert.cases.levels import LEVELS
 from raycert.oracle.reports.reading import (
     by_family,
+    clean,
+    count,
     failing,
     fault,
+    intervals,
     left_out,
     likely,
     mark,
@@ -22,7 +25,6 @@ from raycert.oracle.reports.reading import (
     verdict,
     windows,
 )
-from raycert.oracle.reports.text import clean, count, intervals
 
 Json = dict[str, Any]
 FAMILIES, ROWS = 20, 5

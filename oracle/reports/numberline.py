@@ -11,10 +11,47 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import ceil, floor, frexp, inf, isfinite, log10
 from typing import Any
-from xml.etree.ElementTree import Element
+from xml.etree.ElementTree import Element, tostring
 
 from raycert.cases.formats import Format
-from raycert.oracle.reports.svg import GUTTER, MIDDLE, PLOT, WIDTH, el, label
+
+WIDTH, GUTTER = 480, 66
+"""Width of a drawing, and of the column at its left that names the lines."""
+PLOT = WIDTH - GUTTER
+MIDDLE = GUTTER + PLOT / 2
+
+
+def el(tag: str, *children: Element, text: str | None = None, **attributes: str | float) -> Element:
+    """Return an element; `_` in the name of an attribute is `-`, and `kind` is its class."""
+    names = {name: "class" if name == "kind" else name.replace("_", "-") for name in attributes}
+    element = Element(tag, {names[name]: spelled(x) for name, x in attributes.items()})
+    element.text = text
+    element.extend(children)
+    return element
+
+
+def spelled(x: str | float) -> str:
+    """Return an attribute's value; a number to a tenth of a pixel."""
+    return x if isinstance(x, str) else f"{x:.1f}".removesuffix(".0")
+
+
+def path(points: Iterable[tuple[float, float]], closed: bool = False) -> str:
+    """Return the data of a path through points."""
+    steps = " ".join(f"{spelled(x)},{spelled(y)}" for x, y in points)
+    return f"M{steps}{'Z' if closed else ''}"
+
+
+def drawing(height: float, title: str, *children: Element) -> str:
+    """Return a drawing of the common width, as text for a page; `title` is read aloud."""
+    box = f"0 0 {WIDTH} {spelled(height)}"
+    named = el("title", text=title)
+    return tostring(el("svg", named, *children, viewBox=box, role="img"), encoding="unicode")
+
+
+def label(x: float, y: float, text: str, kind: str = "label", anchor: str = "start") -> Element:
+    """Return a line of text."""
+    return el("text", text=text, x=x, y=y, kind=kind, text_anchor=anchor)
+
 
 Json = dict[str, Any]
 Number = Fraction | float
@@ -23,7 +60,7 @@ ROW, BAR = 20, 10
 
 
 @dataclass(frozen=True, slots=True)
-class Lists:
+class CaseLists:
     """The lists of a case: numbers are fractions, or infinite. `said` is None without a list."""
 
     exact: Pairs
@@ -34,7 +71,7 @@ class Lists:
     """Whether what was said is a first hit: a list of one point."""
 
     @classmethod
-    def of(cls, shown: Json) -> Lists:
+    def of(cls, shown: Json) -> CaseLists:
         """Read the lists of one of the worst cases; a first hit is a list of one point."""
         accept, answer = shown["accept"], shown["answer"]
         first = (shown["reply"] or {}).get("first")
@@ -90,7 +127,7 @@ class Axis:
         return GUTTER <= self.x(t) <= WIDTH
 
 
-def whole(lists: Lists) -> Axis:
+def whole(lists: CaseLists) -> Axis:
     """Return an axis that shows every list from end to end."""
     ends = lists.finite(lists.exact) or lists.finite(lists.said) or [Fraction(0)]
     low, high = min(ends), max(ends)
@@ -107,14 +144,14 @@ class Lane:
     silence: str = ""
 
 
-def bars(lists: Lists, axis: Axis, top: float, silence: str) -> Iterator[Element]:
+def bars(lists: CaseLists, axis: Axis, top: float, silence: str) -> Iterator[Element]:
     """Yield the three lines: accepted, exact, answered. `silence` is said where there is no bar."""
     yield from lanes(
         (*known(lists), Lane("answered", ((lists.said or (), "said"),), silence)), axis, top
     )
 
 
-def known(lists: Lists) -> tuple[Lane, Lane]:
+def known(lists: CaseLists) -> tuple[Lane, Lane]:
     """Return the lines of what is accepted and of what is exact."""
     accepted = Lane("accepted", ((lists.outer, "outer"), (lists.inner, "inner")))
     return accepted, Lane("exact", ((lists.exact, "exact"),))
@@ -192,7 +229,7 @@ class Close:
     off: Fraction | None
     """How far the answer's end is from there, in ulps; None where there is no answer's end."""
 
-    def unseen(self, lists: Lists, axis: Axis) -> bool:
+    def unseen(self, lists: CaseLists, axis: Axis) -> bool:
         """Tell whether it shows what the axis of the whole is too coarse for.
 
         An end that is off by less than a few pixels, or an interval as short that was not met.
@@ -211,7 +248,7 @@ class Close:
         return max(ends) - min(ends) < seen
 
 
-def close(lists: Lists, fmt: Format) -> Close | None:
+def close(lists: CaseLists, fmt: Format) -> Close | None:
     """Return a look at the end that the answer misses most; None where no end is finite."""
     exact = lists.finite(lists.exact)
     said = lists.finite(lists.said)
@@ -234,7 +271,7 @@ def close(lists: Lists, fmt: Format) -> Close | None:
 
 
 def _ends(
-    lists: Lists, exact: list[Fraction], said: list[Fraction]
+    lists: CaseLists, exact: list[Fraction], said: list[Fraction]
 ) -> Iterator[tuple[Fraction, Fraction | None]]:
     """Yield exact ends, each with the answer's, but 0 with 0: 0 has no ulp to speak of.
 

@@ -5,30 +5,36 @@ What clients said is cleaned; the template escapes it besides.
 
 from __future__ import annotations
 
+from base64 import b64encode
+from collections.abc import Callable, Mapping, Sequence
+from importlib.resources import files
 from typing import Any
 
 from raycert.cases.levels import LEVELS
 from raycert.cases.table import PROBLEM_1, PROBLEM_2
+from raycert.oracle.reports.junit import junit
+from raycert.oracle.reports.markdown import markdown
 from raycert.oracle.reports.picture import pictures
 from raycert.oracle.reports.reading import (
     asked,
     by_family,
+    clean,
+    count,
     failing,
     family_of,
     fault,
+    intervals,
     left_out,
     levels_asked,
     likely,
     mark,
     notes,
+    number,
     said,
     subject,
     verdict,
     windows,
 )
-from raycert.oracle.reports.standing import standing
-from raycert.oracle.reports.template import render
-from raycert.oracle.reports.text import clean, count, intervals, number
 
 Json = dict[str, Any]
 LISTED, AT_MOST = 100, 4000
@@ -176,3 +182,66 @@ def _made(certificate: Json) -> list[tuple[str, str]]:
         f"{made['cores']} cores",
     }
     return [(term, value) for term, value in values.items() if value]
+
+
+def standing(certificate: Json) -> Json:
+    """Return where the subject sits: `plots`, (what it shows, its address) each, and `sweeps`.
+
+    A plot goes in as a picture of its own, so that nothing in it can touch the page.
+    """
+    found = certificate["standing"]
+    stress, bench = found["stress"], found["bench"]
+    plots = [("Backward error against stiffness", stress["svg"])] if stress else []
+    if bench:
+        plots += [
+            (f"Error against run time, {name} rays", svg) for name, svg in bench["svg"].items()
+        ]
+    return {
+        "plots": [(clean(title, 80), _address(svg)) for title, svg in plots if svg],
+        "sweeps": _sweeps(stress) if stress else [],
+    }
+
+
+def _address(svg: str) -> str:
+    return f"data:image/svg+xml;base64,{b64encode(svg.encode()).decode('ascii')}"
+
+
+def _sweeps(stress: Json) -> list[Json]:
+    """Return, for each sweep, the ranges in which two levels hold, and why they end."""
+    titles = {sweep["name"]: sweep["title"] for sweep in stress["sweeps"]}
+    mine = stress["methods"][0]["name"]
+    return [
+        {
+            "title": clean(str(titles.get(row["sweep"])), 80),
+            "stable": clean(row["stable"]["text"], 60),
+            "sound": clean(row["sound"]["text"], 60),
+            "whole": row["stable"]["whole"],
+            "causes": clean(", ".join(dict.fromkeys(c["cause"] for c in row["causes"])), 200),
+        }
+        for row in stress["ranges"]
+        if row["method"] == mine
+    ]
+
+
+def render(
+    name: str, styles: Sequence[str], filters: Mapping[str, Callable[..., Any]], **values: Any
+) -> str:
+    """Return the page that a template of this package makes of values and of style sheets.
+
+    The template escapes all text. Only the style sheets and the drawings, whose text their library
+    escapes, go in as they are.
+    """
+    from jinja2 import Environment, StrictUndefined
+
+    here = files("raycert.oracle.reports")
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    environment.filters |= filters
+    style = "\n".join((here / sheet).read_text("utf-8").rstrip() for sheet in styles)
+    template = environment.from_string((here / name).read_text("utf-8"))
+    return template.render(style=style, **values)
+
+
+WRITERS: dict[str, Callable[[Json], str]] = {"junit": junit, "markdown": markdown, "html": page}
+"""The forms of a report, each a function from the certificate to text."""

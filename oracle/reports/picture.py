@@ -11,20 +11,27 @@ from xml.etree.ElementTree import Element
 from raycert.cases.formats import FORMATS
 from raycert.cases.forms import read_ray, read_solid
 from raycert.cases.model import Refused
-from raycert.oracle.reports.numberline import ROW, Axis, Close, Lists, bars, close, ticks, whole
-from raycert.oracle.reports.scene import ASPECT, Scene, scene
-from raycert.oracle.reports.svg import (
+from raycert.oracle.reports.numberline import (
     GUTTER,
     MIDDLE,
     PLOT,
+    ROW,
     WIDTH,
+    Axis,
+    CaseLists,
+    Close,
+    bars,
+    close,
     drawing,
     el,
     label,
     path,
     spelled,
+    ticks,
+    whole,
 )
-from raycert.oracle.reports.text import clean
+from raycert.oracle.reports.reading import clean
+from raycert.oracle.reports.section import ASPECT, Section, section
 
 Json = dict[str, Any]
 TALL = PLOT * ASPECT
@@ -36,13 +43,13 @@ def pictures(shown: Json, precision: str) -> list[tuple[str, str]]:
 
     The close look is left out where there is no finite end, and where it would show no more.
     """
-    lists = Lists.of(shown)
+    lists = CaseLists.of(shown)
     try:
         solid = read_solid(shown["solid"], "solid", "hex")
         ray = read_ray(shown["ray"], "ray", "hex")
     except Refused:
         return []
-    view = scene(solid, ray, lists.finite(lists.exact))
+    view = section(solid, ray, lists.finite(lists.exact))
     axis = whole(lists) if view is None else axis_of(view)
     silence = _silence(shown)
     found = [_whole(view, lists, axis, silence)]
@@ -63,12 +70,12 @@ def _silence(shown: Json) -> str:
     return clean(next(iter(shown["faults"].values()), "nothing"), 44)
 
 
-def axis_of(view: Scene) -> Axis:
+def axis_of(view: Section) -> Axis:
     """Return the axis of t under a picture: the ray is its line."""
     return Axis(view.middle, Fraction(2 * view.half / PLOT) / view.speed)
 
 
-def _whole(view: Scene | None, lists: Lists, axis: Axis, silence: str) -> tuple[str, str]:
+def _whole(view: Section | None, lists: CaseLists, axis: Axis, silence: str) -> tuple[str, str]:
     top = 4.0 if view is None else TALL + GAP
     ends = lists.finite(lists.exact)
     parts = [] if view is None else [*drawn(view, axis), *guides(ends, axis, top + ROW)]
@@ -92,7 +99,7 @@ def base_of(axis: Axis) -> Fraction:
     return Fraction(float(round(axis.middle / power) * power))
 
 
-def drawn(view: Scene, axis: Axis, still: bool = False) -> Iterator[Element]:
+def drawn(view: Section, axis: Axis, still: bool = False) -> Iterator[Element]:
     """Yield the solid, its leaves' outlines and the ray, in the frame of a picture.
 
     A `still` ray is its start alone.
@@ -125,7 +132,7 @@ def drawn(view: Scene, axis: Axis, still: bool = False) -> Iterator[Element]:
         yield label(GUTTER + 6, height - 6, "\u2190 start", "name")
 
 
-def ray_height(view: Scene) -> float:
+def ray_height(view: Section) -> float:
     """Return the pixel at which the ray runs."""
     return TALL / 2 + view.rise * PLOT / (2 * view.half)
 
@@ -137,7 +144,7 @@ def guides(ends: Iterable[Fraction], axis: Axis, foot: float) -> Iterator[Elemen
             yield el("line", x1=axis.x(t), x2=axis.x(t), y1=0, y2=foot, kind="guide")
 
 
-def _close(lists: Lists, near: Close, silence: str) -> tuple[str, str]:
+def _close(lists: CaseLists, near: Close, silence: str) -> tuple[str, str]:
     top, foot = 4.0, 4.0 + 3 * ROW
     parts = [*bars(lists, near.axis, top, silence), *ticks(near.axis, near.origin, near.ulp, foot)]
     parts.append(label(0, foot + 16, "ulps", "name"))

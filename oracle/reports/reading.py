@@ -1,20 +1,81 @@
-"""What a certificate says, read once for every report: verdict, failures, what was left out."""
+"""What a certificate says, read once for every report: verdict, failures, what was left out.
+
+Also the words and numbers as every report prints them. Whatever a client said of itself is hostile
+until `clean` has seen it.
+"""
 
 from __future__ import annotations
 
+import unicodedata
+from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isfinite
 from typing import Any, Literal
 
 from raycert.cases.levels import upto
-from raycert.oracle.reports.text import SHORT, clean, count, intervals
+from raycert.oracle.certify.certificate import CERTIFICATE_VERSION
 
 Json = dict[str, Any]
 State = Literal["granted", "part", "accepted", "refused", "interrupted"]
 Mark = Literal["passed", "failed", "open"]
 
 
+HIDDEN = {"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"}
+"""Categories that print nothing, change the direction, or are no characters at all."""
+MARKS = {"Mn", "Me"}
+UNKNOWN = "\ufffd"
+ELLIPSIS = "\u2026"
+SHORT, LONG = 60, 300
+
+
+def clean(text: str, most: int = LONG) -> str:
+    """Return one line of at most `most` characters that any terminal, XML or page can hold.
+
+    White space becomes a space, what is hidden becomes U+FFFD, and of marks piled on a letter two
+    are left.
+    """
+    kept: list[str] = []
+    piled = 0
+    for char in text[: 4 * most]:
+        category = unicodedata.category(char)
+        piled = piled + 1 if category in MARKS else 0
+        if char.isspace():
+            kept.append(" ")
+        elif category in HIDDEN:
+            kept.append(UNKNOWN)
+        elif piled <= 2:
+            kept.append(char)
+    whole = len(text) <= 4 * most and len(kept) <= most
+    return "".join(kept) if whole else "".join(kept[: most - 1]) + ELLIPSIS
+
+
+def count(n: int, noun: str) -> str:
+    """Return a number with its noun: `1 row`, `2,000 rows`."""
+    return f"{n:,} {noun}" + ("" if n == 1 else "s")
+
+
+def number(x: float | None) -> str:
+    """Return a measured error in at most seven characters; null is infinite."""
+    if x is None or not isfinite(x):
+        return "inf"
+    return f"{x:.3g}" if x < 1e5 else f"{x:.0e}"
+
+
+def decimal(text: str) -> str:
+    """Return a hex float in decimal, the shortest that round-trips."""
+    return repr(float.fromhex(text))
+
+
+def intervals(pairs: Sequence[Sequence[str]] | None, most: int = 6) -> str:
+    """Return a list of pairs of hex floats in decimal, cut after `most` pairs."""
+    if pairs is None:
+        return "none"
+    shown = [f"[{decimal(a)}, {decimal(b)}]" for a, b in pairs[:most]]
+    return "[" + ", ".join(shown + [ELLIPSIS] * (len(pairs) > most)) + "]"
+
+
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class Ruling:
     """The verdict in words: `headline` completes the name of the subject."""
 
     state: State
@@ -23,11 +84,11 @@ class Verdict:
 
     @property
     def good(self) -> bool:
-        """Tell whether the run is one to be content with."""
+        """Whether the run is one to be content with."""
         return self.state in ("granted", "part", "accepted")
 
 
-def verdict(certificate: Json) -> Verdict:
+def verdict(certificate: Json) -> Ruling:
     """Return the verdict."""
     what, state = asked(certificate), _state(certificate)
     headline = {
@@ -38,7 +99,7 @@ def verdict(certificate: Json) -> Verdict:
         "interrupted": f"is not granted {what}: the run was interrupted",
     }[state]
     reasons = [clean(reason) for reason in certificate["reasons"]]
-    return Verdict(state, headline, (*reasons, *surprises(certificate)))
+    return Ruling(state, headline, (*reasons, *surprises(certificate)))
 
 
 def _state(certificate: Json) -> State:
@@ -170,3 +231,50 @@ def notes(certificate: Json) -> list[str]:
 def likely(certificate: Json) -> list[str]:
     """Return the likely fault: one sentence, or none."""
     return [clean(line) for line in certificate["run"]["diagnosis"]]
+
+
+# Is it a certificate at all?
+
+FIELDS: dict[str, type | tuple[type, ...]] = {
+    "granted": bool,
+    "passed": bool,
+    "accepted": bool,
+    "standing": dict,
+    "reasons": list,
+    "asked": dict,
+    "selection": list,
+    "shard": (str, type(None)),
+    "subject": dict,
+    "corpus": dict,
+    "tool": dict,
+    "environment": dict,
+    "run": dict,
+    "tested": int,
+    "not_tested": dict,
+    "not_decisive": dict,
+    "solids": dict,
+    "families": list,
+    "table": dict,
+    "worst": list,
+    "expectations": (dict, type(None)),
+    "failures": list,
+    "reproduce": str,
+}
+
+
+class BadCertificate(ValueError):
+    """What is read is no certificate; the text names the field."""
+
+
+def check(form: object) -> Json:
+    """Return a certificate as it is, or refuse it. The whole form is for the JSON Schema."""
+    if not isinstance(form, dict) or "certificate" not in form:
+        raise BadCertificate("certificate: is missing; is this a file that certify wrote?")
+    if form["certificate"] != CERTIFICATE_VERSION:
+        raise BadCertificate(f"certificate: is not version {CERTIFICATE_VERSION}")
+    for name, kind in FIELDS.items():
+        if name not in form:
+            raise BadCertificate(f"{name}: is missing")
+        if not isinstance(form[name], kind):
+            raise BadCertificate(f"{name}: is of another type")
+    return form

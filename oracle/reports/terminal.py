@@ -10,17 +10,19 @@ from rich.text import Text
 
 from raycert.cases.levels import LEVELS
 from raycert.oracle.reports.reading import (
+    clean,
     failing,
     fault,
+    intervals,
     left_out,
     likely,
     notes,
+    number,
     said,
     subject,
     verdict,
     windows,
 )
-from raycert.oracle.reports.text import clean, intervals, number
 
 Json = dict[str, Any]
 SHOWN = 8

@@ -9,7 +9,7 @@ from junitparser import JUnitXml
 
 import shared.certificates as made_up
 from raycert.oracle.commands.certify import report
-from raycert.oracle.reports.write import WRITERS
+from raycert.oracle.reports.page import WRITERS
 
 
 @pytest.fixture

@@ -13,13 +13,13 @@ from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, HalfSpace, Intersection, Ray, Slab, Solid, Sphere
 from raycert.cases.protocol import Hello, Reply
 from raycert.cases.row import GoldenRow
+from raycert.cases.vectors import dot
 from raycert.oracle.certify.grading import grade
 from raycert.oracle.explain.casepage import case_page
 from raycert.oracle.explain.casepicture import Said, closeups, lists, numbers, wholes
 from raycert.oracle.explain.derive import Derivation, as_given, derive, given
 from raycert.oracle.explain.one_case import Asked
-from raycert.oracle.reports.plane import dot
-from raycert.oracle.reports.views import views
+from raycert.oracle.reports.section import views
 from shared.browser import probed
 from shared.corpus import golden
 
@@ -60,17 +60,17 @@ def test_the_page_has_the_derivation_with_the_taken_rows_lit() -> None:
 def test_a_cylinder_has_a_view_along_and_one_across() -> None:
     along, across = views(CAN, RAY, ENDS)
     axis = (0.0, 0.0, 1.0)
-    assert abs(dot(across.scene.along, axis)) < 1e-15
-    assert abs(dot(across.scene.plane.up, axis)) < 1e-15
-    assert abs(dot(along.scene.plane.up, axis)) > 0.9
-    sizes = [b - a for _, a, b in across.scene.filled()]
-    [outline] = across.scene.outlines()
+    assert abs(dot(across.section.ahead, axis)) < 1e-15
+    assert abs(dot(across.section.plane.up, axis)) < 1e-15
+    assert abs(dot(along.section.plane.up, axis)) > 0.9
+    sizes = [b - a for _, a, b in across.section.filled()]
+    [outline] = across.section.outlines()
     heights = [y for _, y in outline]
     assert max(sizes) == pytest.approx(max(heights) - min(heights), rel=0.02)  # a circle
 
 
 def test_the_circle_is_met_where_the_wall_is() -> None:
-    across = views(CAN, RAY, ENDS)[1].scene
+    across = views(CAN, RAY, ENDS)[1].section
     [(a, b)] = across.across(across.solid, 0.0)
     t = [float(across.middle) + x / float(across.speed) for x in (a, b)]
     half = (1 - 0.3**2) ** 0.5
@@ -94,7 +94,7 @@ def test_every_solid_has_its_views(solid: Solid, ray: Ray, count: int, still: li
     found = views(solid, ray, ENDS)
     assert len(found) == count
     assert [view.still for view in found] == still
-    assert all(any(view.scene.filled()) for view in found)
+    assert all(any(view.section.filled()) for view in found)
     whole, _ = drawings(derived(solid, ray))
     assert whole.count("<svg") == count
     assert ('class="tip"' in whole) == (not all(still))
@@ -102,9 +102,9 @@ def test_every_solid_has_its_views(solid: Solid, ray: Ray, count: int, still: li
 
 def test_a_ray_a_long_way_off_looks_the_same_across() -> None:
     """The projection is exact: 1e9 radii away the circle is met where it is met nearby."""
-    near = views(CAN, Ray((-4.0, 0.5, -4.0), (1.0, 0.0, 1.0)), [])[1].scene
+    near = views(CAN, Ray((-4.0, 0.5, -4.0), (1.0, 0.0, 1.0)), [])[1].section
     far = Ray((-(2.0**30), 0.5, -(2.0**30)), (1.0, 0.0, 1.0))
-    away = views(CAN, far, [Fraction(2**30 - 1), Fraction(2**30 + 1)])[1].scene
+    away = views(CAN, far, [Fraction(2**30 - 1), Fraction(2**30 + 1)])[1].section
     for view in (near, away):
         [(a, b)] = view.across(view.solid, 0.0)
         assert (b - a) / float(view.speed) == pytest.approx(3**0.5, abs=1e-9)

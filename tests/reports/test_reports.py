@@ -11,14 +11,21 @@ from junitparser import JUnitXml
 from rich.console import Console
 
 import shared.certificates as made_up
-from raycert.oracle.reports.form import FIELDS, BadCertificate, check
 from raycert.oracle.reports.junit import junit
 from raycert.oracle.reports.markdown import code, markdown
-from raycert.oracle.reports.page import page
-from raycert.oracle.reports.reading import failing, verdict
+from raycert.oracle.reports.page import WRITERS, page
+from raycert.oracle.reports.reading import (
+    FIELDS,
+    BadCertificate,
+    check,
+    clean,
+    count,
+    failing,
+    intervals,
+    number,
+    verdict,
+)
 from raycert.oracle.reports.terminal import report
-from raycert.oracle.reports.text import clean, count, intervals, number
-from raycert.oracle.reports.write import WRITERS
 from shared.certificates import Json, made
 
 

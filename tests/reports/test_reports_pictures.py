@@ -14,11 +14,22 @@ import shared.certificates as made_up
 from raycert.cases.formats import BINARY32, BINARY64
 from raycert.cases.model import Cylinder, Leaf, Ray, Solid, leaves, type_of
 from raycert.cases.row import GoldenRow
-from raycert.oracle.reports.numberline import Axis, Lists, close, round_up, whole
+from raycert.cases.vectors import dot, norm
+from raycert.oracle.reports.numberline import (
+    GUTTER,
+    MIDDLE,
+    PLOT,
+    WIDTH,
+    Axis,
+    CaseLists,
+    close,
+    drawing,
+    el,
+    round_up,
+    whole,
+)
 from raycert.oracle.reports.picture import pictures
-from raycert.oracle.reports.plane import dot, norm
-from raycert.oracle.reports.scene import Scene, scene
-from raycert.oracle.reports.svg import GUTTER, MIDDLE, PLOT, WIDTH, drawing, el
+from raycert.oracle.reports.section import Section, section
 
 PIXEL = 1 / PLOT
 Pairs = list[tuple[float, float]]
@@ -33,14 +44,14 @@ def ends(row: GoldenRow) -> list[Fraction]:
     ]
 
 
-def views() -> Iterator[tuple[GoldenRow, Scene]]:
+def views() -> Iterator[tuple[GoldenRow, Section]]:
     for row in made_up.sample():
-        view = scene(row.solid, row.ray, ends(row))
+        view = section(row.solid, row.ray, ends(row))
         if view is not None:
             yield row, view
 
 
-def drawn(view: Scene, height: float) -> list[tuple[float, float]]:
+def drawn(view: Section, height: float) -> list[tuple[float, float]]:
     """Return where a line along the ray is inside the drawn solid, as the eye sees it.
 
     Ahead of the start; gaps and slivers of less than half a pixel are not seen.
@@ -55,7 +66,7 @@ def drawn(view: Scene, height: float) -> list[tuple[float, float]]:
     return seen
 
 
-def wanted(row: GoldenRow, view: Scene) -> list[tuple[float, float]]:
+def wanted(row: GoldenRow, view: Section) -> list[tuple[float, float]]:
     """Return the exact list on the scale of the picture."""
 
     def place(digits: str) -> float:
@@ -92,9 +103,9 @@ def test_the_solid_on_the_ray_is_the_exact_list() -> None:
 
 def test_the_planes_are_square_to_the_ray_and_the_exact_ends_are_in_the_picture() -> None:
     for row, view in views():
-        assert abs(norm(view.along) - 1) < 1e-12
+        assert abs(norm(view.ahead) - 1) < 1e-12
         assert abs(norm(view.plane.up) - 1) < 1e-9
-        assert abs(dot(view.along, view.plane.up)) < 1e-7, row.id
+        assert abs(dot(view.ahead, view.plane.up)) < 1e-7, row.id
         for t in ends(row):
             assert abs(float((t - view.middle) * view.speed)) < view.half, row.id
 
@@ -107,7 +118,7 @@ def test_nearly_every_case_has_a_picture_with_something_in_it() -> None:
 
 
 def outline_of(leaf: Leaf) -> list[tuple[float, float]]:
-    view = scene(leaf, Ray((-9.0, 0.0, 1.0), (1.0, 0.0, 0.0)), [Fraction(8), Fraction(10)])
+    view = section(leaf, Ray((-9.0, 0.0, 1.0), (1.0, 0.0, 0.0)), [Fraction(8), Fraction(10)])
     assert view is not None
     (found,) = view.outlines()
     return found
@@ -149,9 +160,9 @@ def test_text_in_a_drawing_is_escaped() -> None:
     assert ElementTree.fromstring(text).findtext("text") == "<script>&"
 
 
-def one(exact: tuple[str, str], said: list[list[str]]) -> Lists:
+def one(exact: tuple[str, str], said: list[list[str]]) -> CaseLists:
     end = dict(zip(("enter", "leave"), ({"digits": x} for x in exact), strict=True))
-    return Lists.of(
+    return CaseLists.of(
         {"exact": [end], "accept": {"inner": [], "outer": []}, "answer": said, "reply": None}
     )
 
