@@ -32,8 +32,7 @@ def counted(solid, ray):
 serve(counted, Hello("planted"))
 """
 INSTALLED = any(point.name == "raycert" for point in entry_points(group="pytest11"))
-PLUGIN = () if INSTALLED else ("-p", "raycert.oracle.commands.pytest_plugin")
-"""pytest refuses a plugin that it finds under two names."""
+PLUGIN = ("-p", "raycert.oracle.commands.pytest_plugin")
 GOOD = "client.py"
 BAD = "client.py no-clip"
 """Tells of what is behind: fails on some rows of `behind` and `start-inside`, on none of others."""
@@ -63,14 +62,24 @@ def tester(pytester: pytest.Pytester, monkeypatch: pytest.MonkeyPatch) -> pytest
     return pytester
 
 
-def run(tester: pytest.Pytester, client: str, *options: str) -> pytest.RunResult:
+def run(
+    tester: pytest.Pytester, client: str, *options: str, alone: bool = True
+) -> pytest.RunResult:
     target = f"{sys.executable} {tester.path}/{client}"
-    return raw(tester, "--raycert", target, *options)
+    return raw(tester, "--raycert", target, *options, alone=alone)
 
 
-def raw(tester: pytest.Pytester, *options: str) -> pytest.RunResult:
-    golden = ("--raycert-golden", str(tester.path / "golden"))
-    return tester.runpytest_subprocess(*PLUGIN, "-p", "no:cacheprovider", *golden, *options)
+def raw(tester: pytest.Pytester, *options: str, alone: bool = True) -> pytest.RunResult:
+    """Run pytest with this plugin alone, which starts fast, or with all that are installed.
+
+    It refuses a plugin that it finds under two names.
+    """
+    plugin = () if INSTALLED and not alone else PLUGIN
+    with pytest.MonkeyPatch.context() as patch:
+        if alone:
+            patch.setenv("PYTEST_DISABLE_PLUGIN_AUTOLOAD", "1")
+        words = (*plugin, "-p", "no:cacheprovider", "--raycert-golden", str(tester.path / "golden"))
+        return tester.runpytest_subprocess(*words, *options)
 
 
 def logged(tester: pytest.Pytester) -> list[str]:
@@ -89,7 +98,7 @@ def test_without_a_target_nothing_is_loaded_and_nothing_done(tester: pytest.Pyte
             assert not {"numpy", "sympy", "mpmath", "rich", "click"} & set(sys.modules)
         """
     )
-    raw(tester).assert_outcomes(passed=1)
+    raw(tester, alone=False).assert_outcomes(passed=1)
 
 
 def test_a_good_target_passes_one_test_for_each_family(tester: pytest.Pytester) -> None:
@@ -134,7 +143,7 @@ def test_only_what_is_left_is_asked(tester: pytest.Pytester) -> None:
 
 
 def test_workers_ask_for_their_own_families(tester: pytest.Pytester) -> None:
-    run(tester, GOOD, "-p", "xdist", "-n", "2").assert_outcomes(passed=3)
+    run(tester, GOOD, "-p", "xdist", "-n", "2", alone=False).assert_outcomes(passed=3)
 
 
 def known(tester: pytest.Pytester, *entries: str) -> tuple[str, str]:
