@@ -106,7 +106,11 @@ def _check(target: Leaf | Ray, *apart: str) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Ray:
-    """f(t) = origin + t * direction, t >= 0. The zero direction stays at its origin."""
+    """f(t) = origin + t * direction, t >= 0. The zero direction stays at its origin.
+
+    >>> Ray(origin=(-3, 0, 1), direction=(1, 0, 0))
+    Ray(origin=(-3.0, 0.0, 1.0), direction=(1.0, 0.0, 0.0))
+    """
 
     origin: Point
     direction: Direction
@@ -118,7 +122,11 @@ class Ray:
 
 @dataclass(frozen=True, slots=True)
 class HalfSpace:
-    """(x - point) . normal <= 0, with the outward normal of any length but zero."""
+    """(x - point) . normal <= 0, with the outward normal of any length but zero.
+
+    >>> HalfSpace(point=(0, 0, 1), normal=(0, 0, 2))
+    HalfSpace(point=(0.0, 0.0, 1.0), normal=(0.0, 0.0, 2.0))
+    """
 
     point: Point
     normal: Direction
@@ -132,7 +140,13 @@ class HalfSpace:
 
 @dataclass(frozen=True, slots=True)
 class Sphere:
-    """|x - center| <= radius."""
+    """|x - center| <= radius.
+
+    >>> Sphere(center=(0, 0, 0), radius=-1)
+    Traceback (most recent call last):
+    ...
+    raycert.cases.model.Refused: radius: is negative: -1.0
+    """
 
     center: Point
     radius: Length
@@ -144,7 +158,11 @@ class Sphere:
 
 @dataclass(frozen=True, slots=True)
 class InfiniteCylinder:
-    """Distance from the line through p and q <= radius."""
+    """Distance from the line through p and q <= radius.
+
+    >>> InfiniteCylinder(p=(0, 0, 0), q=(0, 0, 1), radius=2).radius
+    2.0
+    """
 
     p: Point
     q: Point
@@ -157,7 +175,13 @@ class InfiniteCylinder:
 
 @dataclass(frozen=True, slots=True)
 class Slab:
-    """Between the two planes through p and q square to pq."""
+    """Between the two planes through p and q square to pq.
+
+    >>> Slab(p=(0, 0, 0), q=(0, 0, 0))
+    Traceback (most recent call last):
+    ...
+    raycert.cases.model.Refused: q: is the same point as p: the axis has no direction
+    """
 
     p: Point
     q: Point
@@ -169,7 +193,11 @@ class Slab:
 
 @dataclass(frozen=True, slots=True)
 class Cylinder:
-    """In the infinite cylinder and in the slab of the same p and q."""
+    """In the infinite cylinder and in the slab of the same p and q.
+
+    >>> Cylinder(p=[0, 0, 0], q=[0, 0, 2], radius=1).q
+    (0.0, 0.0, 2.0)
+    """
 
     p: Point
     q: Point
@@ -191,7 +219,11 @@ def _parts(tree: Union | Intersection | Difference) -> None:
 
 @dataclass(frozen=True, slots=True)
 class Union:
-    """In any part."""
+    """In any part.
+
+    >>> len(Union([Sphere((0, 0, 0), 1), Sphere((1, 0, 0), 1)]).of)
+    2
+    """
 
     of: tuple[Solid, ...]
 
@@ -202,7 +234,13 @@ class Union:
 
 @dataclass(frozen=True, slots=True)
 class Intersection:
-    """In every part."""
+    """In every part.
+
+    >>> Intersection([])
+    Traceback (most recent call last):
+    ...
+    raycert.cases.model.Refused: of: is not a list of one or more solids
+    """
 
     of: tuple[Solid, ...]
 
@@ -213,7 +251,12 @@ class Intersection:
 
 @dataclass(frozen=True, slots=True)
 class Difference:
-    """In the first part, less all the others; closed again along the ray."""
+    """In the first part, less all the others; closed again along the ray.
+
+    >>> shell = Difference([Sphere((0, 0, 0), 2), Sphere((0, 0, 0), 1)])
+    >>> [part.radius for part in shell.of]
+    [2.0, 1.0]
+    """
 
     of: tuple[Solid, ...]
 

@@ -1,4 +1,4 @@
-"""Every example in a docstring of the three packages does what it says."""
+"""Every example in a docstring of the packages and of their face does what it says."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from types import ModuleType
 
 import pytest
 
+import raycert
 from raycert import cases, oracle, reference
 
 LEAST = 8
@@ -24,7 +25,10 @@ def names(package: ModuleType) -> Iterator[str]:
             yield module.name
 
 
-MODULES = [name for package in (cases, oracle, reference) for name in names(package)]
+PACKAGES = (cases, oracle, reference)
+FACE = ("raycert", *(f"raycert.{module.name}" for module in pkgutil.iter_modules(raycert.__path__)))
+MODULES = [name for package in PACKAGES for name in names(package)]
+MODULES += [name for name in FACE if name not in MODULES and not name.endswith("__main__")]
 
 
 def run(module: ModuleType) -> doctest.TestResults:

@@ -13,7 +13,7 @@ from functools import cached_property
 from math import frexp, inf, isinf
 
 from raycert.cases.accept import Accept, Numbers, Pairs, malformed
-from raycert.cases.formats import Format
+from raycert.cases.formats import BINARY64, Format
 from raycert.cases.levels import Level, Tier
 from raycert.cases.model import Intersection, Ray, Solid, Tree, leaves
 from raycert.oracle.exact.intervals import Intervals, contains, expected, meets
@@ -48,11 +48,22 @@ def told(t: Surd, up: bool, fmt: Format) -> Surd:
 
 @dataclass(frozen=True)
 class Judge:
-    """One case, ready to judge answers: everything that it needs is computed once, on demand."""
+    """One case, ready to judge answers: everything that it needs is computed once, on demand.
+
+    >>> from raycert.cases.model import Ray, Sphere
+    >>> judge = Judge(Sphere((0, 0, 0), 1), Ray((-2, 0.5, 0), (1, 0, 0)))
+    >>> judge.expected
+    ((1.1339745962155614, 2.866025403784439),)
+    >>> answer = [(1.1339745962155612, 2.866025403784439)]
+    >>> judge.holds("faithful", answer), judge.holds("exact", answer)
+    (True, False)
+    >>> judge.backward_error(answer, "strict"), judge.backward_error([(1.13, 2.87)], "strict")
+    (0.375, 8796093022208.0)
+    """
 
     solid: Solid
     ray: Ray
-    format: Format
+    format: Format = BINARY64
     tier: Tier = "generic"
     tolerance: float = 0.0
 
