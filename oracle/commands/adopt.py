@@ -14,7 +14,7 @@ from raycert.oracle.commands.options import PRECISIONS, BadInput, check_writable
 if TYPE_CHECKING:
     from raycert.cases.formats import Format
     from raycert.oracle.corpus.adopt import Found
-    from raycert.oracle.witness.crosscheck import Checked
+    from raycert.oracle.witness.crosscheck import Hearing
 
 EPILOG = """\b
 Examples:
@@ -139,12 +139,12 @@ def _row(file: Path, fmt: Format, id: str | None, why: str) -> Found:
     return from_row(*wanted[0], why)
 
 
-def _say(checked: Checked) -> None:
+def _say(checked: Hearing) -> None:
     """Print what each witness says."""
-    from raycert.oracle.witness.verdict import WITNESSES
+    from raycert.oracle.witness.testimony import WITNESSES
 
     click.echo(f"exactly {checked.answer}")
-    said = {name: verdict for name, verdict, _ in checked.verdicts}
+    said = {name: verdict for name, verdict, _ in checked.testimonies}
     for name in WITNESSES:
         if name not in said:
             click.echo(f"{name}: not installed, not asked")

@@ -10,14 +10,20 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.options import family_option, golden_option, stop
+from raycert.oracle.commands.options import (
+    PRECISIONS,
+    counting,
+    family_option,
+    golden_option,
+    read,
+    repeatable,
+    stop,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
-    from rich.console import Console
-
-    from raycert.oracle.witness.crosscheck import Checked, Question, Summary, Tally
+    from raycert.oracle.witness.crosscheck import Hearing, Query, Score, Summary
 
 NAMES = ("definition", "enclosure", "symbols", "meshes")
 SHOWN = 10
@@ -25,7 +31,7 @@ HELP = """Check the oracle's answers by witnesses that share no formula with it.
 
 \b
 definition  which points and gaps are in the solid, from its definition alone
-enclosure   the seed's published formulas, in interval arithmetic
+enclosure   the derivation's formulas, in interval arithmetic
 symbols     SymPy: polynomials it derives, their real roots isolated
 meshes      trimesh: prisms inside and around the solid; prints how they close in
 
@@ -45,9 +51,7 @@ installed or nothing was checked.
 
 
 @click.command(help=HELP)
-@click.option(
-    "--witness", "names", multiple=True, type=click.Choice(NAMES), help="Only this (repeatable)."
-)
+@repeatable("--witness", "names", "Only this", type=click.Choice(NAMES))
 @family_option
 @click.option("--fresh", type=click.IntRange(min=1), metavar="N", help="N cases drawn anew.")
 @click.option("--seed", default=1, show_default=True, help="What --fresh draws from.")
@@ -74,7 +78,7 @@ def crosscheck(names: tuple[str, ...], **options: Any) -> None:
 
 def _require(names: Sequence[str]) -> None:
     """Stop, naming what to install, if a witness cannot be loaded."""
-    from raycert.oracle.witness.verdict import Missing, load
+    from raycert.oracle.witness.testimony import Missing, load
 
     for name in names:
         try:
@@ -84,8 +88,8 @@ def _require(names: Sequence[str]) -> None:
             stop(f"{missing}; or leave it out: raycert crosscheck {others}")
 
 
-def _questions(options: dict[str, Any]) -> list[Question]:
-    from raycert.oracle.witness.crosscheck import Question
+def _questions(options: dict[str, Any]) -> list[Query]:
+    from raycert.oracle.witness.crosscheck import Query
 
     if options["lines"]:
         return [_read(line, f"json-{i}") for i, line in enumerate(options["lines"], 1)]
@@ -93,49 +97,38 @@ def _questions(options: dict[str, Any]) -> list[Question]:
         from raycert.cases.draw import fresh
 
         cases = fresh(options["fresh"], options["seed"])
-        return [Question(f"fresh/{case.slug}", case.solid, case.ray) for case in cases]
+        return [Query(f"fresh/{case.slug}", case.solid, case.ray) for case in cases]
     return _rows(options["golden"], options["families"])
 
 
-def _read(line: str, id: str) -> Question:
+def _read(line: str, id: str) -> Query:
     """Return the case on a line of the protocol, as it is sent to an implementation."""
     from raycert.cases.forms import read_ray, read_solid
     from raycert.cases.model import Refused
     from raycert.cases.protocol import BadLine, decode
-    from raycert.oracle.witness.crosscheck import Question
+    from raycert.oracle.witness.crosscheck import Query
 
     try:
         form = decode(line.encode())
         solid, ray = read_solid(form.get("solid")), read_ray(form.get("ray"))
     except (BadLine, Refused) as error:
         raise click.BadParameter(str(error), param_hint="--json") from None
-    return Question(str(form.get("id", id)), solid, ray)
+    return Query(str(form.get("id", id)), solid, ray)
 
 
-def _rows(folder: Path | None, families: tuple[str, ...]) -> list[Question]:
-    from raycert.cases.corpus import GOLDEN, BadCorpus, read_corpus
-    from raycert.cases.formats import FORMATS
-    from raycert.oracle.witness.crosscheck import Question
+def _rows(folder: Path | None, families: tuple[str, ...]) -> list[Query]:
+    from raycert.oracle.witness.crosscheck import Query
 
-    try:
-        corpora = [read_corpus(precision, folder or GOLDEN) for precision in FORMATS]
-    except BadCorpus as error:
-        raise click.UsageError(str(error)) from None
-    rows = [(f"{c.precision}:{row.id}", row) for c in corpora for row in c.rows]
+    corpora = [read(precision, folder) for precision in PRECISIONS]
+    rows = [(f"{corpus.precision}:{row.id}", row) for corpus in corpora for row in corpus.rows]
     known = {row.family for _, row in rows}
     if absent := [family for family in families if family not in known]:
         raise click.UsageError(f"not in the corpus: {', '.join(absent)}; see: raycert list")
-    return [
-        Question(id, row.solid, row.ray)
-        for id, row in rows
-        if not families or row.family in families
-    ]
+    wanted = families or known
+    return [Query(id, row.solid, row.ray) for id, row in rows if row.family in wanted]
 
 
-def _crosscheck(questions: list[Question], names: Sequence[str], workers: int) -> int:
-    from rich.console import Console
-
-    from raycert.oracle.commands.options import counting
+def _crosscheck(questions: list[Query], names: Sequence[str], workers: int) -> int:
     from raycert.oracle.witness.crosscheck import Summary
     from raycert.oracle.witness.crosscheck import crosscheck as run
 
@@ -148,77 +141,70 @@ def _crosscheck(questions: list[Question], names: Sequence[str], workers: int) -
         _print_difference(checked, names)
     if len(summary.differing) > SHOWN:
         click.echo(f"and {len(summary.differing) - SHOWN} more cases\n")
-    _print_table(summary, Console(highlight=False))
+    _print_scores(summary)
     return 1 if summary.differing else 0
 
 
-def _print_difference(checked: Checked, names: Sequence[str]) -> None:
+def _print_difference(checked: Hearing, names: Sequence[str]) -> None:
     """Print the case, all answers, and the command that repeats it."""
     from raycert.cases.formats import BINARY64
     from raycert.cases.protocol import ask
 
-    question = checked.question
+    question = checked.query
     line = ask(question.id, question.solid, question.ray, "decimal", BINARY64).decode().strip()
     click.echo(f"{question.id}: the oracle and a witness differ")
     click.echo(f"  case        {line}")
     click.echo(f"  {'oracle':<11} {checked.answer}")
-    for name, verdict, _ in checked.verdicts:
+    for name, verdict, _ in checked.testimonies:
         click.echo(f"  {name:<11} {verdict.found or 'no list'}")
         click.echo(f"  {'':<11} {verdict.outcome}: {verdict.why}")
     only = "".join(f"--witness {name} " for name in names) if tuple(names) != NAMES else ""
     click.echo(f"  again       raycert crosscheck {only}--json {shlex.quote(line)}\n")
 
 
-def _print_table(summary: Summary, console: Console) -> None:
-    from rich.box import SIMPLE_HEAD
-    from rich.table import Table
-
-    table = Table(box=SIMPLE_HEAD)
-    table.add_column("witness")
-    for heading in ("agreed", "undecided", "disagreed", "ms a case", "slowest, ms"):
-        table.add_column(heading, justify="right")
-    for tally in summary.tallies.values():
-        table.add_row(tally.witness, *_cells(tally))
-    console.print(table)
-    for tally in summary.tallies.values():
-        for why, count in _reasons(tally).most_common(5):
-            click.echo(f"{tally.witness} undecided on {count}: {why}")
-
-
-def _print_curve() -> None:
-    """Print how the meshes close in on the cylinder as they get finer, and what a ray costs."""
+def _table(title: str | None, headings: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
+    """Print a table, the numbers in it to the right."""
     from rich.box import SIMPLE_HEAD
     from rich.console import Console
     from rich.table import Table
 
-    from raycert.oracle.witness.convergence import convergence
-
-    title = "Prisms of n sides: the gap between inner and outer list shrinks as 1/n^2"
     table = Table(box=SIMPLE_HEAD, title=title, title_justify="left")
-    for heading in ("n", "gap / radius", "gap n^2", "ms a ray"):
-        table.add_column(heading, justify="right")
-    for row in convergence():
-        cells = f"{row.gap:.3g}", f"{row.scaled:.3f}", f"{row.seconds * 1e3:.2f}"
-        table.add_row(str(row.n), *cells)
+    for heading in headings:
+        table.add_column(heading, justify="left" if heading == "witness" else "right")
+    for row in rows:
+        table.add_row(*row)
     Console(highlight=False).print(table)
 
 
-def _reasons(tally: Tally) -> Counter[str]:
-    """Return how often each reason was given, whatever the intervals in it."""
-    reasons: Counter[str] = Counter()
-    for why, count in tally.undecided.items():
-        reasons[re.sub(r"\[[^]]*\]", "[...]", why)] += count
-    return reasons
+def _print_scores(summary: Summary) -> None:
+    headings = ("witness", "agreed", "undecided", "disagreed", "ms a case", "slowest, ms")
+    _table(None, headings, [_cells(score) for score in summary.scores.values()])
+    for score in summary.scores.values():
+        reasons: Counter[str] = Counter()  # how often each was given, whatever the intervals in it
+        for why, count in score.undecided.items():
+            reasons[re.sub(r"\[[^]]*\]", "[...]", why)] += count
+        for why, count in reasons.most_common(5):
+            click.echo(f"{score.witness} undecided on {count}: {why}")
 
 
-def _cells(tally: Tally) -> tuple[str, ...]:
-    outcomes, count = tally.outcomes, tally.count
+def _cells(score: Score) -> tuple[str, ...]:
+    outcomes, count = score.outcomes, score.count
     undecided = outcomes["undecided"]
     share = f" ({undecided / count:.1%})" if undecided else ""
-    return (
-        str(outcomes["agreed"]),
-        f"{undecided}{share}",
-        str(outcomes["disagreed"]),
-        f"{tally.seconds / count * 1e3:.2f}",
-        f"{tally.slowest * 1e3:.0f}",
+    times = f"{score.seconds / count * 1e3:.2f}", f"{score.slowest * 1e3:.0f}"
+    agreed, disagreed = str(outcomes["agreed"]), str(outcomes["disagreed"])
+    return (score.witness, agreed, f"{undecided}{share}", disagreed, *times)
+
+
+def _print_curve() -> None:
+    """Print how the meshes close in on the cylinder as they get finer, and what a ray costs."""
+    from raycert.oracle.witness.meshes import convergence
+
+    _table(
+        "Prisms of n sides: the gap between inner and outer list shrinks as 1/n^2",
+        ("n", "gap / radius", "gap n^2", "ms a ray"),
+        [
+            (str(row.n), f"{row.gap:.3g}", f"{row.scaled:.3f}", f"{row.seconds * 1e3:.2f}")
+            for row in convergence()
+        ],
     )

@@ -19,7 +19,7 @@ from raycert.oracle.commands.options import (
 if TYPE_CHECKING:
     from raycert.oracle.explain.derive import Derivation
     from raycert.oracle.explain.form import Fact
-    from raycert.oracle.witness.symbols import Statement
+    from raycert.oracle.witness.proofs import Statement
 
 EXAMPLES = """\b
 Examples:

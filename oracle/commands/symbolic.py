@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.text import Text
 
-    from raycert.oracle.witness.symbols import Statement
+    from raycert.oracle.witness.proofs import Statement
 
 MARGIN, INDENT = 2, 4
 OUTCOMES = {True: ("proved", "green"), False: ("NOT PROVED", "bold red")}
@@ -21,7 +21,7 @@ OUTCOMES = {True: ("proved", "green"), False: ("NOT PROVED", "bold red")}
 
 def proofs() -> list[Statement]:
     """Return every statement, proved now. Stops, naming what to install, without SymPy."""
-    from raycert.oracle.witness.verdict import Missing, load
+    from raycert.oracle.witness.testimony import Missing, load
 
     try:
         load("symbols")
@@ -30,7 +30,7 @@ def proofs() -> list[Statement]:
         raise SystemExit(3) from None
     from rich.console import Console
 
-    from raycert.oracle.witness.symbols import derivation
+    from raycert.oracle.witness.proofs import derivation
 
     with Console(stderr=True).status("proving with SymPy"):
         return derivation()
@@ -51,7 +51,7 @@ def show_proofs(statements: list[Statement], console: Console) -> None:
 def _lines(statements: list[Statement], width: int) -> Iterator[Text]:
     from rich.text import Text
 
-    from raycert.oracle.witness.symbols import LEGEND
+    from raycert.oracle.witness.proofs import LEGEND
 
     yield Text("Symbols", "bold")
     for line in LEGEND:

@@ -7,6 +7,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from raycert.oracle.commands.options import (
+    FILE,
+    KNOWN_FOLDER,
+    PRECISIONS,
+    counting,
+    golden_option,
+    read,
+    repeatable,
+    write_text,
+)
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
@@ -37,38 +48,33 @@ WIDE = 100
 
 
 @click.command(help=HELP)
-@click.option("--fault", "names", multiple=True, metavar="NAME", help="Only this (repeatable).")
-@click.option(
-    "--golden",
-    type=click.Path(exists=True, file_okay=False, path_type=Path),
-    help="Golden files to use instead of the installed ones.",
-)
-@click.option("--json", "out", type=click.Path(dir_okay=False, path_type=Path), metavar="FILE")
+@repeatable("--fault", "names", "Only this", metavar="NAME")
+@golden_option
+@click.option("--json", "out", type=FILE, metavar="FILE")
 @click.option(
     "--write-smoke",
     "folder",
-    type=click.Path(exists=True, file_okay=False, path_type=Path),
+    type=KNOWN_FOLDER,
     help="Choose the rows of certify --smoke, and write their ids there.",
 )
 def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: Path | None) -> None:
     """Try planted wrong tracers on the golden rows."""
+    import json
+
     from rich.console import Console
 
-    from raycert.cases.corpus import GOLDEN, BadCorpus, read_corpus
     from raycert.oracle.zoo.inhabitants import BY_NAME
+    from raycert.oracle.zoo.matrix import form
 
     if unknown := [name for name in names if name not in BY_NAME]:
         raise click.BadParameter(f"no such fault: {', '.join(unknown)}", param_hint="--fault")
     if folder:
-        _write_smoke(golden or GOLDEN, folder)
+        _write_smoke(golden, folder)
         return
-    try:
-        corpus = read_corpus("binary64", golden or GOLDEN)
-    except BadCorpus as error:
-        raise click.UsageError(str(error)) from None
+    corpus = read("binary64", golden)
     lines = _lines(corpus, names or tuple(BY_NAME))
     if out:
-        _write(corpus, lines, out)
+        write_text(out, json.dumps(form(corpus, lines), indent=1) + "\n")
     console = Console()
     console.print(_table(lines, console.width))
     if names:
@@ -76,40 +82,27 @@ def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: P
     raise SystemExit(_summary(corpus, lines, console))
 
 
-def _write_smoke(golden: Path, folder: Path) -> None:
-    from raycert.cases.corpus import read_corpus, write_whole
-    from raycert.cases.formats import FORMATS
-    from raycert.oracle.commands.options import counting
+def _write_smoke(golden: Path | None, folder: Path) -> None:
     from raycert.oracle.zoo.cover import chosen
     from raycert.oracle.zoo.inhabitants import FAULTS
 
-    for precision in FORMATS:
+    for precision in PRECISIONS:
         with counting(f"trying in {precision}", len(FAULTS)) as advance:
-            ids = chosen(read_corpus(precision, golden), advance)
-        write_whole(folder / f"{precision}.txt", "".join(f"{id}\n" for id in ids).encode("ascii"))
+            ids = chosen(read(precision, golden), advance)
+        write_text(folder / f"{precision}.txt", "".join(f"{id}\n" for id in ids))
         click.echo(f"{precision}: {len(ids)} rows")
 
 
 def _lines(corpus: Corpus, names: Sequence[str]) -> list[MatrixLine]:
-    from raycert.oracle.commands.options import counting
     from raycert.oracle.zoo.inhabitants import BY_NAME
     from raycert.oracle.zoo.matrix import Trials, line
 
-    bench, lines = Trials(corpus.rows, corpus.format), []
+    trials, lines = Trials(corpus.rows, corpus.format), []
     with counting("trying", len(names)) as advance:
         for name in names:
-            lines.append(line(bench, BY_NAME[name]))
+            lines.append(line(trials, BY_NAME[name]))
             advance()
     return lines
-
-
-def _write(corpus: Corpus, lines: Sequence[MatrixLine], out: Path) -> None:
-    import json
-
-    from raycert.cases.corpus import write_whole
-    from raycert.oracle.zoo.matrix import form
-
-    write_whole(out, (json.dumps(form(corpus, lines), indent=1) + "\n").encode())
 
 
 def _table(lines: Sequence[MatrixLine], width: int) -> Table:

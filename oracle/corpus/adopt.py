@@ -44,8 +44,8 @@ from raycert.cases.row import GoldenRow
 from raycert.oracle.corpus.golden import Contradiction, golden_files
 from raycert.oracle.exact.condition import condition
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.witness.crosscheck import Checked, Question, check
-from raycert.oracle.witness.verdict import WITNESSES, Missing, load
+from raycert.oracle.witness.crosscheck import Hearing, Query, check
+from raycert.oracle.witness.testimony import WITNESSES, Missing, load
 
 CORPUS = GOLDEN.parent
 """The corpus of a checkout."""
@@ -97,10 +97,10 @@ def installed() -> tuple[str, ...]:
     return tuple(names)
 
 
-def examine(found: Found, witnesses: Sequence[str]) -> Checked:
+def examine(found: Found, witnesses: Sequence[str]) -> Hearing:
     """Return what witnesses say of a case. Raises `Contradiction` where one finds another list."""
-    checked = check(Question("found", found.solid, found.ray), witnesses)
-    for name, verdict, _ in checked.verdicts:
+    checked = check(Query("found", found.solid, found.ray), witnesses)
+    for name, verdict, _ in checked.testimonies:
         if verdict.outcome == "disagreed":
             raise Contradiction(
                 f"{name} finds {verdict.found}, the oracle {checked.answer}: {verdict.why}"

@@ -23,7 +23,7 @@ from raycert.oracle.exact.surd import INFINITY, Surd, fraction
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.decisive import decisive
 from raycert.oracle.judge.levels import MEASURES, Judge
-from raycert.oracle.witness.crosscheck import Question, check
+from raycert.oracle.witness.crosscheck import Query, check
 
 Progress = Callable[[str], None]
 
@@ -46,7 +46,7 @@ def golden_row(family: Family, case: Case, fmt: Format, witnesses: Sequence[str]
     id = f"{family.name}/{case.slug}"
     if case.known is not None and known(case.known) != answer.intervals:
         raise Contradiction(f"{id}: known {case.known}, the oracle finds {show(answer.intervals)}")
-    for name, verdict, _ in check(Question(id, case.solid, case.ray), witnesses).verdicts:
+    for name, verdict, _ in check(Query(id, case.solid, case.ray), witnesses).testimonies:
         if verdict.outcome == "disagreed":
             raise Contradiction(f"{id}: {name} finds {verdict.found}: {verdict.why}")
     judge = Judge(case.solid, case.ray, fmt, case.tier)

@@ -41,7 +41,7 @@ def body(solid: Cylinder, caster: str, n: int) -> tuple[Any, Any]:
     import numpy as np
     import trimesh
 
-    from raycert.oracle.witness.prism import Fineness, Side, prism_surface
+    from raycert.oracle.witness.bodies import Fineness, Side, prism_surface
 
     vertices, faces = prism_surface(Fineness(n, 0), Side.INNER, 0.0)
     p, q = np.array(solid.p), np.array(solid.q)

@@ -16,14 +16,14 @@ from time import perf_counter
 from raycert.cases.model import Ray, Solid
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.witness.verdict import Outcome, Verdict, Witness, load, show
+from raycert.oracle.witness.testimony import Outcome, Testimony, Witness, load, show
 
 CHUNK = 16
 """Cases that a worker takes at a time."""
 
 
 @dataclass(frozen=True, slots=True)
-class Question:
+class Query:
     """One case to check: an id to know it by, and what is asked."""
 
     id: str
@@ -32,69 +32,69 @@ class Question:
 
 
 @dataclass(frozen=True, slots=True)
-class Checked:
+class Hearing:
     """What every witness says of the oracle's answer to one case, and how long each took."""
 
-    question: Question
+    query: Query
     answer: str
-    verdicts: tuple[tuple[str, Verdict, float], ...]
+    testimonies: tuple[tuple[str, Testimony, float], ...]
 
     @property
     def disagreed(self) -> bool:
-        """Tell whether a witness found another list."""
-        return any(verdict.outcome == "disagreed" for _, verdict, _ in self.verdicts)
+        """Whether a witness found another list."""
+        return any(testimony.outcome == "disagreed" for _, testimony, _ in self.testimonies)
 
 
-def check(question: Question, names: Iterable[str], answer: Intervals | None = None) -> Checked:
+def check(query: Query, names: Iterable[str], answer: Intervals | None = None) -> Hearing:
     """Return what the witnesses say of an answer, by default the oracle's."""
     if answer is None:
-        answer = trace(question.solid, question.ray).intervals
-    verdicts = []
+        answer = trace(query.solid, query.ray).intervals
+    testimonies = []
     for name in names:
         witness = load(name)
         began = perf_counter()
-        verdict = _ask(witness, question, answer)
-        verdicts.append((name, verdict, perf_counter() - began))
-    return Checked(question, show(answer), tuple(verdicts))
+        testimony = _ask(witness, query, answer)
+        testimonies.append((name, testimony, perf_counter() - began))
+    return Hearing(query, show(answer), tuple(testimonies))
 
 
-def _ask(witness: Witness, question: Question, answer: Intervals) -> Verdict:
-    """Return a witness's verdict; one that contradicts itself disagrees with any answer."""
+def _ask(witness: Witness, query: Query, answer: Intervals) -> Testimony:
+    """Return a witness's testimony; one that contradicts itself disagrees with any answer."""
     try:
-        return witness(question.solid, question.ray, answer)
+        return witness(query.solid, query.ray, answer)
     except ArithmeticError as error:
         why = f"the witness contradicts itself: {type(error).__name__}: {error}"
-        return Verdict("disagreed", "nothing", why)
+        return Testimony("disagreed", "nothing", why)
 
 
 def crosscheck(
-    questions: Iterable[Question], names: Sequence[str], workers: int = 1
-) -> Iterator[Checked]:
+    queries: Iterable[Query], names: Sequence[str], workers: int = 1
+) -> Iterator[Hearing]:
     """Yield what the witnesses say of each case, in order; `workers` > 1 are processes."""
     if workers == 1:
-        for question in questions:
-            yield check(question, names)
+        for query in queries:
+            yield check(query, names)
         return
     pool = ProcessPoolExecutor(workers, mp_context=get_context("spawn"))
     try:
-        for future in [pool.submit(_check_all, chunk, names) for chunk in _chunks(questions)]:
+        for future in [pool.submit(_check_all, chunk, names) for chunk in _chunks(queries)]:
             yield from future.result()
     finally:
         pool.shutdown(cancel_futures=True)
 
 
-def _chunks(questions: Iterable[Question]) -> Iterator[tuple[Question, ...]]:
-    rest = iter(questions)
+def _chunks(queries: Iterable[Query]) -> Iterator[tuple[Query, ...]]:
+    rest = iter(queries)
     for first in rest:
         yield (first, *islice(rest, CHUNK - 1))
 
 
-def _check_all(questions: tuple[Question, ...], names: Sequence[str]) -> list[Checked]:
-    return [check(question, names) for question in questions]
+def _check_all(queries: tuple[Query, ...], names: Sequence[str]) -> list[Hearing]:
+    return [check(query, names) for query in queries]
 
 
 @dataclass(slots=True)
-class Tally:
+class Score:
     """How one witness fared: outcomes, seconds, the slowest case, and why it was undecided."""
 
     witness: str
@@ -108,30 +108,30 @@ class Tally:
         """Return how many cases the witness judged."""
         return self.outcomes.total()
 
-    def add(self, verdict: Verdict, seconds: float) -> None:
-        """Count one verdict."""
-        self.outcomes[verdict.outcome] += 1
+    def add(self, testimony: Testimony, seconds: float) -> None:
+        """Count one testimony."""
+        self.outcomes[testimony.outcome] += 1
         self.seconds += seconds
         self.slowest = max(self.slowest, seconds)
-        if verdict.outcome == "undecided":
-            self.undecided[verdict.why] += 1
+        if testimony.outcome == "undecided":
+            self.undecided[testimony.why] += 1
 
 
 @dataclass(slots=True)
 class Summary:
     """The tally of each witness, and the cases on which one disagreed."""
 
-    tallies: dict[str, Tally]
-    differing: list[Checked] = field(default_factory=list)
+    scores: dict[str, Score]
+    differing: list[Hearing] = field(default_factory=list)
 
     @classmethod
     def over(cls, names: Iterable[str]) -> Summary:
         """Return an empty summary of these witnesses."""
-        return cls({name: Tally(name) for name in names})
+        return cls({name: Score(name) for name in names})
 
-    def add(self, checked: Checked) -> None:
+    def add(self, hearing: Hearing) -> None:
         """Count one case."""
-        for name, verdict, seconds in checked.verdicts:
-            self.tallies[name].add(verdict, seconds)
-        if checked.disagreed:
-            self.differing.append(checked)
+        for name, testimony, seconds in hearing.testimonies:
+            self.scores[name].add(testimony, seconds)
+        if hearing.disagreed:
+            self.differing.append(hearing)

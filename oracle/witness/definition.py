@@ -10,7 +10,7 @@ With y = u - p and w = q - p the distance is by projection: d^2 = |x-p|^2 - ((x-
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from math import isqrt
 
 from raycert.cases.model import (
@@ -22,29 +22,28 @@ from raycert.cases.model import (
     Slab,
     Solid,
     Sphere,
+    Vector,
     leaves,
 )
-from raycert.cases.vectors import dot, minus
-from raycert.oracle.exact.grid import Grid, IntVector, normal
+from raycert.oracle.exact.grid import Grid, normal
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, fraction, sign_1
-from raycert.oracle.witness.cells import combine, runs
-from raycert.oracle.witness.verdict import Verdict, lengths_differ, show
+from raycert.oracle.witness.algebra import Vec, combine, runs
+from raycert.oracle.witness.testimony import Testimony, compared, show_end
 
 Number = tuple[int, int]
 """a + b sqrt(d), with the d of the endpoint at hand."""
-Inside = Callable[[Surd], bool]
 
 
-def witness(solid: Solid, ray: Ray, answer: Intervals) -> Verdict:
+def witness(solid: Solid, ray: Ray, answer: Intervals) -> Testimony:
     """Agree with the answer that is exactly the list read off; never undecided."""
-    found = solve(solid, ray)
-    if found == answer:
-        return Verdict("agreed", show(found), "every point and gap belongs as the answer says")
-    if len(found) != len(answer):
-        return Verdict("disagreed", show(found), lengths_differ(len(found), len(answer)))
-    which = next(i for i, pair in enumerate(found) if pair != answer[i])
-    return Verdict("disagreed", show(found), f"interval {which} is another")
+    return compared(
+        solve(solid, ray),
+        answer,
+        show_end,
+        lambda mine, t: None if mine == t else "is another",
+        "every point and gap belongs as the answer says",
+    )
 
 
 def solve(solid: Solid, ray: Ray) -> Intervals:
@@ -54,12 +53,11 @@ def solve(solid: Solid, ray: Ray) -> Intervals:
     samples = list(_samples(points))
 
     def cells(leaf: Leaf) -> int:
-        inside = _definition(leaf, grid)
-        return sum(1 << i for i, t in enumerate(samples) if inside(t))
+        return sum(1 << i for i, t in enumerate(samples) if _inside(leaf, grid, t))
 
-    found = runs(combine(solid, cells, len(points)), len(points))
     ends = [grid.surd(t.x, t.y, t.d, t.z) for t in points]
-    return tuple((ends[a], INFINITY if b is None else ends[b]) for a, b in found)
+    found = runs(combine(solid, cells, len(points)), ends)
+    return tuple((a, INFINITY if b is None else b) for a, b in found)
 
 
 def _distinct(roots: Iterator[Surd]) -> list[Surd]:
@@ -110,100 +108,61 @@ def _roots(leaf: Leaf, grid: Grid) -> Iterator[Surd]:
 
 def _faces(leaf: Leaf, grid: Grid) -> Iterator[tuple[int, int, int]]:
     """Yield a, b, c of a t^2 + b t + c = 0 on each face; a >= 0."""
-    v = grid.v
+    u, v = Vec(*grid.u), Vec(*grid.v)
     match leaf:
         case HalfSpace():
-            n = normal(leaf.normal)
-            yield 0, dot(v, n), dot(minus(grid.u, grid.point(leaf.point)), n)
+            n = Vec(*normal(leaf.normal))
+            yield 0, v @ n, (u - Vec(*grid.point(leaf.point))) @ n
             return
         case Sphere():
-            y, r = minus(grid.u, grid.point(leaf.center)), grid.scalar(leaf.radius)
-            yield dot(v, v), 2 * dot(v, y), dot(y, y) - r * r
+            y, r = u - Vec(*grid.point(leaf.center)), grid.scalar(leaf.radius)
+            yield v @ v, 2 * (v @ y), y @ y - r * r
             return
-    p = grid.point(leaf.p)
-    w, y = minus(grid.point(leaf.q), p), minus(grid.u, p)
-    vw, yw, ww = dot(v, w), dot(y, w), dot(w, w)
+    p = Vec(*grid.point(leaf.p))
+    w, y = Vec(*grid.point(leaf.q)) - p, u - p
+    vw, yw, ww = v @ w, y @ w, w @ w
     if isinstance(leaf, Slab | Cylinder):
         yield 0, vw, yw
         yield 0, vw, yw - ww
     if isinstance(leaf, InfiniteCylinder | Cylinder):
         r = grid.scalar(leaf.radius)
         yield (
-            ww * dot(v, v) - vw * vw,
-            2 * (ww * dot(v, y) - vw * yw),
-            ww * (dot(y, y) - r * r) - yw * yw,
+            ww * (v @ v) - vw * vw,
+            2 * (ww * (v @ y) - vw * yw),
+            ww * (y @ y - r * r) - yw * yw,
         )
 
 
-def _definition(leaf: Leaf, grid: Grid) -> Inside:
-    """Return the test whether f(t) is in the leaf, t in the grid's unit."""
+def _inside(leaf: Leaf, grid: Grid, t: Surd) -> bool:
+    """Whether f(t) is in the leaf, by the leaf's definition; t in the grid's unit."""
     match leaf:
-        case HalfSpace():
-            return _in_half_space(grid, grid.point(leaf.point), normal(leaf.normal))
-        case Sphere():
-            return _in_sphere(grid, grid.point(leaf.center), grid.scalar(leaf.radius))
-    p = grid.point(leaf.p)
-    w = minus(grid.point(leaf.q), p)
-    if isinstance(leaf, Slab):
-        return _in_slab(grid, p, w)
-    within = _in_rod(grid, p, w, grid.scalar(leaf.radius))
-    if isinstance(leaf, InfiniteCylinder):
-        return within
-    between_caps = _in_slab(grid, p, w)
-    return lambda t: between_caps(t) and within(t)
+        case HalfSpace():  # (x - point) . normal <= 0
+            x = _from(grid, leaf.point, t)
+            return sign_1(*_along(x, Vec(*normal(leaf.normal))), t.d) <= 0
+        case Sphere():  # |x - center|^2 <= r^2
+            a, b = _square(_from(grid, leaf.center, t), t.d)
+            return sign_1(a - (grid.scalar(leaf.radius) * t.z) ** 2, b, t.d) <= 0
+    x, w = _from(grid, leaf.p, t), Vec(*grid.point(leaf.q)) - Vec(*grid.point(leaf.p))
+    (e, f), ww = _along(x, w), w @ w
+    if isinstance(leaf, Slab | Cylinder):  # 0 <= (x - p) . w <= w . w
+        within = sign_1(e, f, t.d) >= 0 >= sign_1(e - ww * t.z, f, t.d)
+        if isinstance(leaf, Slab) or not within:
+            return within
+    # |w|^2 (|x - p|^2 - r^2) <= ((x - p) . w)^2
+    a, b = _square(x, t.d)
+    a -= (grid.scalar(leaf.radius) * t.z) ** 2
+    return sign_1(ww * a - e * e - f * f * t.d, ww * b - 2 * e * f, t.d) <= 0
 
 
-def _in_half_space(grid: Grid, point: IntVector, n: IntVector) -> Inside:
-    def inside(t: Surd) -> bool:
-        """(x - point) . normal <= 0."""
-        height = _along(_from(grid, point, t), n)
-        return sign_1(*height, t.d) <= 0
-
-    return inside
-
-
-def _in_sphere(grid: Grid, center: IntVector, r: int) -> Inside:
-    def inside(t: Surd) -> bool:
-        """|x - center|^2 <= r^2."""
-        a, b = _square(_from(grid, center, t), t.d)
-        return sign_1(a - (r * t.z) ** 2, b, t.d) <= 0
-
-    return inside
-
-
-def _in_slab(grid: Grid, p: IntVector, w: IntVector) -> Inside:
-    def inside(t: Surd) -> bool:
-        """0 <= (x - p) . w <= w . w."""
-        a, b = _along(_from(grid, p, t), w)
-        return sign_1(a, b, t.d) >= 0 >= sign_1(a - dot(w, w) * t.z, b, t.d)
-
-    return inside
-
-
-def _in_rod(grid: Grid, p: IntVector, w: IntVector, r: int) -> Inside:
-    ww = dot(w, w)
-
-    def inside(t: Surd) -> bool:
-        """|x - p|^2 - ((x - p) . w)^2 / |w|^2 <= r^2."""
-        x = _from(grid, p, t)
-        a, b = _square(x, t.d)
-        e, f = _along(x, w)
-        squared = (e * e + f * f * t.d, 2 * e * f)
-        return sign_1(ww * (a - (r * t.z) ** 2) - squared[0], ww * b - squared[1], t.d) <= 0
-
-    return inside
-
-
-def _from(grid: Grid, point: IntVector, t: Surd) -> tuple[IntVector, IntVector]:
+def _from(grid: Grid, point: Vector, t: Surd) -> tuple[Vec, Vec]:
     """Return z (f(t) - point) as a vector of numbers: its rational and its irrational part."""
-    (a, b, c), (i, j, k) = minus(grid.u, point), grid.v
-    x, y, z = t.x, t.y, t.z
-    return (a * z + i * x, b * z + j * x, c * z + k * x), (i * y, j * y, k * y)
+    v = Vec(*grid.v)
+    return t.z * (Vec(*grid.u) - Vec(*grid.point(point))) + t.x * v, t.y * v
 
 
-def _along(x: tuple[IntVector, IntVector], n: IntVector) -> Number:
-    return dot(x[0], n), dot(x[1], n)
+def _along(x: tuple[Vec, Vec], n: Vec) -> Number:
+    return x[0] @ n, x[1] @ n
 
 
-def _square(x: tuple[IntVector, IntVector], d: int) -> Number:
-    return dot(x[0], x[0]) + dot(x[1], x[1]) * d, 2 * dot(x[0], x[1])
+def _square(x: tuple[Vec, Vec], d: int) -> Number:
+    return x[0] @ x[0] + (x[1] @ x[1]) * d, 2 * (x[0] @ x[1])

@@ -10,13 +10,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from itertools import pairwise
+from math import inf
 
 from raycert.cases.model import Difference, Intersection, Tree, Union
 from raycert.oracle.exact.intervals import Interval, Intervals
 from raycert.oracle.exact.rounding import decimal
 from raycert.oracle.exact.surd import INFINITY, ZERO, Surd
-from raycert.oracle.witness.verdict import Outcome
+from raycert.oracle.witness.testimony import Outcome
 
 NONE: Intervals = ()
 ALL: Intervals = ((ZERO, INFINITY),)
@@ -33,7 +35,7 @@ class Sandwich:
 
 
 def covers(intervals: Intervals, low: Surd, high: Surd) -> bool:
-    """Tell whether [low, high] lies in one interval."""
+    """Whether [low, high] lies in one interval."""
     return any(a <= low and high <= b for a, b in intervals)
 
 
@@ -86,24 +88,23 @@ def judge(answer: Intervals, sandwich: Sandwich) -> tuple[Outcome, str]:
             return "disagreed", f"{show_pair(a, b)} of the answer reaches outside"
     doubt = f" ({'; '.join(sandwich.doubts)})" if sandwich.doubts else ""
     for low, high in sandwich.outer:
-        held = [(a, b) for a, b in sandwich.inner if low <= a and b <= high]
+        inside = [(a, b) for a, b in sandwich.inner if low <= a and b <= high]
         pairs = sum(low <= a and b <= high for a, b in answer)
-        if len(held) != 1 or pairs != 1:
-            why = f"{show_pair(low, high)} holds {len(held)} inner and {pairs} pairs of the answer"
+        if len(inside) != 1 or pairs != 1:
+            why = (
+                f"{show_pair(low, high)} holds {len(inside)} inner and {pairs} pairs of the answer"
+            )
             return "undecided", why + doubt
-        if not _half(held[0], (low, high)):
+        if 2 * length(inside[0]) < length((low, high)):
             return "undecided", f"{show_pair(low, high)} is less than half confirmed{doubt}"
     return "agreed", f"inner and outer settle {len(answer)} pairs"
 
 
-def _half(inner: Interval, outer: Interval) -> bool:
-    """Tell whether inner is at least half as long as outer; all four ends are rational."""
-    low, a, b, high = (end.rational() for end in (outer[0], *inner, outer[1]))
-    if b is None or high is None:
-        return b is None and high is None
+def length(interval: Interval) -> Fraction | float:
+    """Return how long an interval with rational ends is, inf where it never ends."""
+    low, high = (end.rational() for end in interval)
     assert low is not None
-    assert a is not None
-    return 2 * (b - a) >= high - low
+    return inf if high is None else high - low
 
 
 def show_pair(a: Surd, b: Surd) -> str:

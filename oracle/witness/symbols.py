@@ -1,233 +1,223 @@
-"""Witness by symbols: SymPy derives the seed's formulas, and proves them equal to the oracle's.
+"""Witness by symbols: SymPy derives each condition along the ray, and isolates its real roots.
 
-A statement is an equation written as text and executed: both sides are evaluated in components,
-and their difference is shown to be the zero polynomial modulo h.h = 1, where h is the unit vector
-along the axis. `a @ b` is the scalar product, `a ^ b` the vector product. The oracle's forms are
-those of its own code (`raycert.oracle.exact.leaf`), run on symbols.
-
-SymPy is loaded only by this module and those whose names begin as its does.
+The distance to an axis is found by minimisation, as in Problem 1 (a), and not written down. The
+derived conditions are evaluated in SymPy's rationals, factored over the integers, and the real
+roots of all factors are isolated together in disjoint rational intervals. Two roots are one if and
+only if they are the same root of the same irreducible factor, so no radical is ever compared.
+A condition has one sign on each gap; at a root of a factor that does not divide it, it has the sign
+of the gaps beside.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from sympy import Expr, Poly, Symbol, diff, expand, fraction, solve, symbols, together
-
-from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Sphere
-from raycert.oracle.exact.leaf import ball, caps, half_space, wall
-from raycert.oracle.witness.symbols_conditions import RADIUS, S_AXIS, T, Vec, globe, plane, rod
-from raycert.oracle.witness.symbols_tables import table_proofs
-
-LEGEND = (
-    "x, u, v, p, q, r: a point, the ray u + t v, the axis and the radius",
-    "y = u - p, w = q - p = l h with h.h = 1, n = (p - q)/|p - q| = -h",
-    "vbar = v x h, ybar = y x h; S: the square root of the discriminant",
-    "D(s) = |p + s h - x|^2, with its derivatives dD, ddD and its least value Dmin at s0",
-    "F, G, H: the conditions derived here for an infinite cylinder, a sphere about p and a plane",
-    "wall, ball, cap_p, cap_q, half, roots, cross_p, cross_q: what the oracle's code finds:",
-    "wall.a t^2 + 2 wall.b t + wall.c <= 0, cap_p.c + cap_p.b t <= 0, and so on",
+from sympy import (
+    QQ,
+    ZZ,
+    Expr,
+    Integer,
+    Poly,
+    Rational,
+    cancel,
+    diff,
+    expand,
+    intervals,
+    lambdify,
+    solve,
+    symbols,
+    together,
 )
-"""What the names in the statements stand for."""
+
+from raycert.cases.model import (
+    HalfSpace,
+    InfiniteCylinder,
+    Leaf,
+    Ray,
+    Slab,
+    Solid,
+    Sphere,
+    Vector,
+    leaves,
+)
+from raycert.oracle.exact.intervals import Intervals
+from raycert.oracle.exact.surd import Surd
+from raycert.oracle.witness.algebra import Vec, combine, runs
+from raycert.oracle.witness.testimony import Testimony, compared
+
+T, S_AXIS, RADIUS = symbols("t s r", real=True)
 
 
-@dataclass(frozen=True, slots=True)
-class Statement:
-    """A claim in the seed's terms, and whether SymPy proved it."""
-
-    title: str
-    text: str
-    proved: bool
+def named(name: str) -> Vec:
+    """Return a vector of three symbols."""
+    return Vec(*symbols(f"{name}1:4", real=True))
 
 
-class _Number:
-    """A symbol that passes for a float where the oracle asks a number for its integer ratio."""
-
-    def __init__(self, value: Any) -> None:
-        self.value = value
-
-    def as_integer_ratio(self) -> tuple[_Number, int]:
-        """Return the symbol over 1."""
-        return self, 1
-
-    def __lshift__(self, bits: int) -> Any:
-        """Return the symbol; the unit is 1, so nothing is ever shifted."""
-        assert bits == 0
-        return self.value
-
-
-@dataclass(frozen=True, slots=True)
-class _Grid:
-    """Passes for the oracle's grid, in units of 1."""
-
-    u: Any
-    v: Any
-
-    def point(self, x: Any) -> Any:
-        """Return the point itself."""
-        return x
-
-    def scalar(self, x: Any) -> Any:
-        """Return the length itself."""
-        return x
-
-    def surd(self, x: Any, y: Any, d: Any, z: Any) -> Any:
-        """Return the number (x + y sqrt(d)) / z, with S for the root of d."""
-        return (x + y * Symbol("S", positive=True)) / z if d != 0 else x / z
-
-
-def _leaf(kind: type, **fields: Any) -> Any:
-    """Return a leaf with symbols for numbers, its checks passed by."""
-    leaf: Any = object.__new__(kind)
-    for name, value in fields.items():
-        object.__setattr__(leaf, name, value)
-    return leaf
+def distance_squared(x: Vec, p: Vec, w: Vec) -> Expr:
+    """Return the least squared distance of x from a point p + s w of the line, by minimisation."""
+    away = p + S_AXIS * w - x
+    square = away @ away
+    (nearest,) = solve(diff(square, S_AXIS), S_AXIS)
+    return together(square.subs(S_AXIS, nearest))
 
 
 @cache
-def _names() -> dict[str, Any]:
-    """Return what the texts of the statements may name."""
-    u, v, p, x, h, a, b = (Vec.named(name) for name in ("u", "v", "p", "x", "h", "a", "b"))
-    big, root, r = symbols("l S r", positive=True)
-    w, y = big * h, u - p
-    q, away = p + w, p + S_AXIS * h - x
-    known = {"u": u, "v": v, "p": p, "q": q, "x": x, "h": h, "a": a, "b": b, "w": w, "y": y}
-    known |= {"n": -h, "r": r, "l": big, "S": root, "t": T, "s": S_AXIS}
-    known |= {"vbar": v ^ h, "ybar": y ^ h, "D": away @ away}
-    slope = diff(known["D"], S_AXIS)
-    # Solved with h.h = 1 put in, as the seed does: the slope is 2 s - 2 (x - p).h.
-    (least,) = solve(slope.subs(h.z**2, 1 - h.x**2 - h.y**2).expand(), S_AXIS)
-    known |= {"dD": slope, "ddD": diff(slope, S_AXIS), "s0": least}
-    known["Dmin"] = known["D"].subs(S_AXIS, least)
-    swap = dict(zip(Vec.named("y").parts + Vec.named("w").parts, y.parts + w.parts, strict=True))
-    for name, poly in (("F", rod()), ("G", globe()), ("H", plane())):
-        known[name] = poly.as_expr().subs(RADIUS, r).subs(swap, simultaneous=True)
-    return known | _oracle_names(known)
+def rod() -> Poly:
+    """Return |w|^2 (d^2 - r^2) along the ray, in t: derived, not written down."""
+    y, v, w = (named(name) for name in "yvw")
+    origin = Vec(*(Integer(0),) * 3)
+    condition = (w @ w) * (distance_squared(y + T * v, origin, w) - RADIUS**2)
+    return Poly(cancel(condition), T)
 
 
-def _oracle_names(known: dict[str, Any]) -> dict[str, Any]:
-    """Return the oracle's own forms, computed by its code from symbols."""
-    grid: Any = _Grid(known["u"].parts, known["v"].parts)
-    p, q, r = known["p"].parts, known["q"].parts, known["r"]
-    quadric = wall(_leaf(InfiniteCylinder, p=p, q=q, radius=r), grid)
-    low, high = caps(_leaf(Cylinder, p=p, q=q, radius=r), grid)
-    normal = tuple(map(_Number, known["w"].parts))
-    return {
-        "wall": quadric,
-        "ball": ball(_leaf(Sphere, center=p, radius=r), grid),
-        "cap_p": low,
-        "cap_q": high,
-        "half": half_space(_leaf(HalfSpace, point=p, normal=normal), grid),
-        "roots": quadric.roots(grid, quadric.disc),
-        "cross_p": low.crossing(_Rational()),  # type: ignore[arg-type]
-        "cross_q": high.crossing(_Rational()),  # type: ignore[arg-type]
-    }
+@cache
+def globe() -> Poly:
+    """Return |x - center|^2 - r^2 along the ray, in t, with y for u - center."""
+    x = named("y") + T * named("v")
+    return Poly(expand(x @ x - RADIUS**2), T)
 
 
-class _Rational:
-    """Passes for a grid where only quotients are made."""
-
-    def surd(self, x: Any, y: Any, d: Any, z: Any) -> Any:
-        """Return x / z."""
-        return x / z
+@cache
+def plane() -> Poly:
+    """Return (x - point) . w along the ray, in t, with y for u - point."""
+    return Poly(expand((named("y") + T * named("v")) @ named("w")), T)
 
 
-PROOFS: tuple[tuple[str, str], ...] = (
-    ("Lagrange's identity, the tip of 1 (b)", "(a @ b)**2 + (a ^ b) @ (a ^ b) = (a @ a) * (b @ b)"),
-    ("1 (a) the slope of D(s) = |p + s h - x|^2", "dD = 2*s - 2*((x - p) @ h)"),
-    ("1 (a) is zero at", "s0 = (x - p) @ h"),
-    ("1 (a) which is a minimum", "ddD = 2"),
-    ("1 (a) the squared distance", "Dmin = (x - p) @ (x - p) - ((x - p) @ h)**2"),
-    ("1 (a) by Lagrange", "Dmin = ((x - p) ^ h) @ ((x - p) ^ h)"),
-    (
-        "1 (c) the witness's derived condition F",
-        "F = l**2 * (((y + t*v) ^ h) @ ((y + t*v) ^ h) - r**2)",
-    ),
-    (
-        "1 (c) the quadratic",
-        "F = l**2 * (t**2*(vbar @ vbar) + 2*t*(vbar @ ybar) + ybar @ ybar - r**2)",
-    ),
-    (
-        "1 (c) the discriminant",
-        "(vbar @ ybar)**2 - (ybar @ ybar - r**2)*(vbar @ vbar)"
-        " = r**2*(vbar @ vbar) - (vbar ^ ybar) @ (vbar ^ ybar)",
-    ),
-    (
-        "1 (c) vbar and ybar are square to the axis",
-        "(vbar ^ ybar) @ (vbar ^ ybar) = ((v ^ h) @ y)**2",
-    ),
-    (
-        "1 (f) both roots, with S^2 the discriminant",
-        "(vbar @ vbar)*((-(vbar @ ybar) + S) / (vbar @ vbar))**2"
-        " + 2*(vbar @ ybar)*((-(vbar @ ybar) + S) / (vbar @ vbar)) + ybar @ ybar - r**2"
-        " = (S**2 - (r**2*(vbar @ vbar) - (vbar ^ ybar) @ (vbar ^ ybar))) / (vbar @ vbar)",
-    ),
-    ("the oracle's quadratic is l^2 times the seed's: t^2", "wall.a = l**2 * (vbar @ vbar)"),
-    ("the oracle's quadratic: 2 t", "wall.b = l**2 * (vbar @ ybar)"),
-    ("the oracle's quadratic: 1", "wall.c = l**2 * (ybar @ ybar - r**2)"),
-    ("the oracle's quadratic is the witness's", "wall.a*t**2 + 2*wall.b*t + wall.c = F"),
-    (
-        "the oracle's discriminant, factored",
-        "wall.disc = (w @ w) * (r**2*((v ^ w) @ (v ^ w)) - ((v ^ w) @ y)**2)",
-    ),
-    (
-        "the oracle's discriminant is l^4 times the seed's",
-        "wall.disc = l**4 * (r**2*(vbar @ vbar) - (vbar ^ ybar) @ (vbar ^ ybar))",
-    ),
-    (
-        "the oracle's first root, its S being l^2 times the seed's",
-        "roots[0] = (-l**2*(vbar @ ybar) - S) / (l**2*(vbar @ vbar))",
-    ),
-    ("the oracle's second root", "roots[1] = (-l**2*(vbar @ ybar) + S) / (l**2*(vbar @ vbar))"),
-    ("2 (b) n points out at p", "(p - q) @ n = l"),
-    ("2 (d) (u-p).n > 0 and (u-q).n < 0 exclude each other", "(u - p) @ n - (u - q) @ n = -l"),
-    ("2 (c) the crossing tp", "(u + (-((u - p) @ n)/(v @ n))*v - p) @ n = 0"),
-    ("2 (c) the crossing tq", "(u + (-((u - q) @ n)/(v @ n))*v - q) @ n = 0"),
-    (
-        "the oracle's plane at p is l times the seed's",
-        "cap_p.c + cap_p.b*t = l*((u + t*v - p) @ n)",
-    ),
-    ("the oracle's plane at q", "cap_q.c + cap_q.b*t = -l*((u + t*v - q) @ n)"),
-    ("the oracle's tp", "cross_p = -((u - p) @ n)/(v @ n)"),
-    ("the oracle's tq", "cross_q = -((u - q) @ n)/(v @ n)"),
-    ("the oracle's half-space is the witness's, normal w", "half.c + half.b*t = H"),
-    ("the oracle's sphere is the witness's, center p", "ball.a*t**2 + 2*ball.b*t + ball.c = G"),
-    (
-        "a sphere's discriminant, as in 1 (c)",
-        "ball.disc = r**2*(v @ v) - (v ^ y) @ (v ^ y)",
-    ),
-)
-"""What is proved: a title and an equation, which is executed as it stands."""
+Factor = tuple[int, ...]
+"""An irreducible integer polynomial, primitive, the first coefficient positive."""
+Name = tuple[Factor, int]
+"""A real number: an irreducible factor, and which of its real roots."""
+ZERO: Name = ((1, 0), 0)
 
 
-def equal(text: str) -> bool:
-    """Tell whether an equation between expressions holds wherever h.h = 1."""
-    left, right = (eval(side, {"__builtins__": {}}, _names()) for side in text.split(" = "))
-    return vanishes(left - right)
+@dataclass(frozen=True, slots=True)
+class FactoredCondition:
+    """A polynomial that is <= 0 inside, and its irreducible factors."""
+
+    polynomial: Poly
+    factors: frozenset[Factor]
+
+    @classmethod
+    def of(cls, coefficients: list[Any]) -> FactoredCondition:
+        """Return the condition with these rational coefficients, the highest power first."""
+        _, polynomial = Poly(coefficients, T, domain=QQ).clear_denoms(convert=True)
+        if polynomial.degree() < 1:
+            return cls(polynomial, frozenset())
+        _, factors = polynomial.factor_list()
+        return cls(polynomial, frozenset(_coefficients(f) for f, _ in factors))
 
 
-def vanishes(expression: Expr) -> bool:
-    """Tell whether the numerator is the zero polynomial modulo h.h - 1.
-
-    As a polynomial in h3 the divisor h3^2 + h1^2 + h2^2 - 1 is monic, so the remainder is zero if
-    and only if the numerator is a multiple of it.
-    """
-    numerator, _ = fraction(together(expression))
-    h = Vec.named("h")
-    return bool(Poly(expand(numerator), h.z).rem(Poly(h @ h - 1, h.z)).is_zero)
+def _coefficients(polynomial: Poly) -> Factor:
+    sign = 1 if polynomial.LC() > 0 else -1
+    return tuple(sign * int(c) for c in polynomial.all_coeffs())
 
 
-def derivation() -> list[Statement]:
-    """Return every statement, in the seed's order, each proved now."""
-    algebra = [Statement(title, pretty(text), equal(text)) for title, text in PROOFS]
-    tables = [Statement(*proof) for proof in table_proofs()]
-    return algebra + tables
+def witness(solid: Solid, ray: Ray, answer: Intervals) -> Testimony:
+    """Agree with the answer whose every end is the root found, by factor and index."""
+    line = RealLine.of({id(leaf): list(_conditions(leaf, ray)) for _, leaf in leaves(solid)})
+    return compared(
+        runs(combine(solid, line.cells, len(line.names)), line.names),
+        answer,
+        show,
+        lambda mine, t: None if mine == _name(t) else "is another",
+        "every end is the same root of the same irreducible polynomial",
+    )
 
 
-def pretty(text: str) -> str:
-    """Return an equation as people write it."""
-    for code, sign in ((" ^ ", " x "), (" @ ", "."), (" * ", " "), ("**", "^"), ("*", " ")):
-        text = text.replace(code, sign)
-    return text
+def _name(t: Surd) -> Name | None:
+    return (t.polynomial(), t.root()) if t.finite else None
+
+
+def show(name: Name | None) -> str:
+    """Return a number for people: its polynomial and which root, or a fraction."""
+    if name is None:
+        return "inf"
+    factor, root = name
+    if len(factor) == 2:
+        return str(Rational(-factor[1], factor[0]))
+    return f"root {root} of {Poly(factor, T).as_expr()}"
+
+
+@dataclass(frozen=True, slots=True)
+class RealLine:
+    """The points of t >= 0 and a rational in the gap after each, for the conditions of leaves."""
+
+    conditions: dict[int, list[FactoredCondition]]
+    names: tuple[Name, ...]
+    boxes: tuple[tuple[Any, Any], ...]
+    samples: tuple[Any, ...]
+
+    @classmethod
+    def of(cls, conditions: dict[int, list[FactoredCondition]]) -> RealLine:
+        """Return the line, 0 being a point even where no condition has a root there."""
+        factors = sorted({f for c in conditions.values() for x in c for f in x.factors} | {ZERO[0]})
+        isolated = intervals([Poly(f, T, domain=ZZ) for f in factors], strict=True)
+        seen: dict[Factor, int] = {}
+        names, boxes = [], []
+        for box, which in isolated:
+            (index,) = which
+            factor = factors[index]
+            seen[factor] = seen.get(factor, -1) + 1
+            names.append((factor, seen[factor]))
+            boxes.append(box)
+        start = names.index(ZERO)
+        nexts = [box[0] for box in boxes[start + 1 :]] + [boxes[-1][1] + 2]
+        samples = [(a[1] + b) / 2 for a, b in zip(boxes[start:], nexts, strict=True)]
+        return cls(conditions, tuple(names[start:]), tuple(boxes[start:]), tuple(samples))
+
+    def cells(self, leaf: Leaf) -> int:
+        """Return the cells in which every condition of a leaf holds."""
+        held = -1
+        for condition in self.conditions[id(leaf)]:
+            cells = 0
+            beside = False
+            for i, (name, sample) in enumerate(zip(self.names, self.samples, strict=True)):
+                after = bool(condition.polynomial.eval(sample) <= 0)
+                at = name[0] in condition.factors or after
+                if i and name[0] not in condition.factors and beside != after:
+                    raise ArithmeticError(f"{condition.polynomial} changes sign without a root")
+                cells |= (at << 2 * i) | (after << 2 * i + 1)
+                beside = after
+            held &= cells
+        return held
+
+
+@cache
+def _function(condition: Callable[[], Poly]) -> Callable[..., list[Any]]:
+    """Return a derived condition as a function of y, v, w and r to its coefficients."""
+    names = [part for name in "yvw" for part in named(name).parts]
+    # The derived polynomial, compiled: only +, -, * and integer powers, exact in any ring.
+    function: Callable[..., list[Any]] = lambdify(
+        [*names, RADIUS], condition().all_coeffs(), modules=[{}], cse=True
+    )
+    return function
+
+
+def _conditions(leaf: Leaf, ray: Ray) -> Iterator[FactoredCondition]:
+    """Yield the conditions of a leaf, each <= 0 inside."""
+    u, v = _exact(ray.origin), _exact(ray.direction)
+
+    def condition(derived: Callable[[], Poly], start: Vector, w: Vec, r: float = 0.0) -> Any:
+        y, radius = u - _exact(start), QQ(*r.as_integer_ratio())
+        return FactoredCondition.of(_function(derived)(*y.parts, *v.parts, *w.parts, radius))
+
+    match leaf:
+        case HalfSpace():
+            yield condition(plane, leaf.point, _exact(leaf.normal))
+            return
+        case Sphere():
+            yield condition(globe, leaf.center, v, leaf.radius)
+            return
+    w = _exact(leaf.q) - _exact(leaf.p)
+    if not isinstance(leaf, InfiniteCylinder):
+        yield condition(plane, leaf.p, -w)
+        yield condition(plane, leaf.q, w)
+    if not isinstance(leaf, Slab):
+        yield condition(rod, leaf.p, w, leaf.radius)
+
+
+def _exact(vector: Vector) -> Vec:
+    return Vec.of(vector, lambda x: QQ(*x.as_integer_ratio()))

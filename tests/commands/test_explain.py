@@ -16,8 +16,8 @@ from raycert.cases.formats import Format
 from raycert.cases.model import Cylinder, Ray
 from raycert.oracle.commands.explain import explain
 from raycert.oracle.corpus.golden import write
-from raycert.oracle.witness import symbols
-from raycert.oracle.witness.symbols import derivation
+from raycert.oracle.witness import proofs as proving
+from raycert.oracle.witness.proofs import derivation
 
 UNIT = Cylinder((0, 0, 0), (0, 0, 2), 1)
 RAY = ("--ray=-3,0,1", "1,0,0")
@@ -251,9 +251,9 @@ def test_symbolic_as_data() -> None:
 
 
 def test_a_failed_proof_exits_1(monkeypatch: pytest.MonkeyPatch) -> None:
-    wrong = (("1 (a) is zero at", "s0 = (x + p) @ h"), *symbols.PROOFS[:2])
-    monkeypatch.setattr(symbols, "PROOFS", wrong)
-    monkeypatch.setattr(symbols, "table_proofs", lambda: iter(()))
+    wrong = (("1 (a) is zero at", "s0 = (x + p) @ h"), *proving.PROOFS[:2])
+    monkeypatch.setattr(proving, "PROOFS", wrong)
+    monkeypatch.setattr(proving, "table_proofs", lambda: iter(()))
     result = run("--symbolic")
     assert result.exit_code == 1
     assert "NOT PROVED\n    s0 = (x + p).h" in result.stdout
@@ -262,7 +262,7 @@ def test_a_failed_proof_exits_1(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_symbolic_without_sympy_exits_3(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "sympy", None)
-    for name in [name for name in sys.modules if name.startswith("raycert.oracle.witness.symbols")]:
+    for name in [name for name in sys.modules if name.startswith("raycert.oracle.witness.")]:
         monkeypatch.delitem(sys.modules, name)
     result = run("--symbolic", *CYLINDER, *RAY)
     assert result.exit_code == 3

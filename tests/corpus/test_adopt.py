@@ -28,7 +28,7 @@ from raycert.oracle.corpus.adopt import (
 )
 from raycert.oracle.corpus.golden import USUAL, Contradiction, compare, golden_row
 from raycert.oracle.witness.crosscheck import check
-from raycert.oracle.witness.verdict import Verdict
+from raycert.oracle.witness.testimony import Testimony
 
 CAN = Cylinder((0.0, 0.0, 0.0), (0.0, 0.0, 2.0), 1.0)
 FOUND = Found(CAN, Ray((-3.0, 0.25, 1.0), (1.0, 0.0, 0.0)), BINARY64, "A ray crosses.")
@@ -140,8 +140,8 @@ def test_a_witness_that_disagrees_refuses(monkeypatch: pytest.MonkeyPatch) -> No
     assert not examine(FOUND, USUAL).disagreed
 
     def contradicts(*words: Any) -> Any:
-        said = Verdict("disagreed", "[[1, 2]]", "another root")
-        return replace(check(*words), verdicts=(("definition", said, 0.0),))
+        said = Testimony("disagreed", "[[1, 2]]", "another root")
+        return replace(check(*words), testimonies=(("definition", said, 0.0),))
 
     monkeypatch.setattr("raycert.oracle.corpus.adopt.check", contradicts)
     with pytest.raises(Contradiction, match=r"definition finds \[\[1, 2\]\]"):

@@ -17,7 +17,7 @@ from raycert.cases.model import Cylinder, Ray, Solid, Union
 from raycert.oracle.corpus.golden import Contradiction, compare, golden_row, known, show, write
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.surd import INFINITY, Surd, fraction
-from raycert.oracle.witness.verdict import WITNESSES, Verdict
+from raycert.oracle.witness.testimony import WITNESSES, Testimony
 from shared.corpus import golden
 
 CAN = Cylinder((0, 0, 0), (0, 0, 2), 1)
@@ -92,9 +92,9 @@ def test_a_known_answer_that_is_not_the_oracles_is_a_contradiction(wrong: object
     assert golden_row(ONE, case("across", ACROSS, RIGHT), BINARY64).source == "construction"
 
 
-def liar(solid: Solid, ray: Ray, answer: Intervals) -> Verdict:
+def liar(solid: Solid, ray: Ray, answer: Intervals) -> Testimony:
     """Disagree with every hit, and leave every miss undecided."""
-    return Verdict("disagreed" if answer else "undecided", "[]", "it lies")
+    return Testimony("disagreed" if answer else "undecided", "[]", "it lies")
 
 
 def test_a_witness_that_disagrees_stops_the_writing(

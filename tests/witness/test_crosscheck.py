@@ -19,25 +19,24 @@ from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.surd import ZERO, Surd
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.witness import crosscheck as crosschecks
-from raycert.oracle.witness import verdict as verdicts
-from raycert.oracle.witness.crosscheck import Question, Summary, check, crosscheck
-from raycert.oracle.witness.verdict import WITNESSES, Verdict, load
+from raycert.oracle.witness.crosscheck import Query, Summary, check, crosscheck
+from raycert.oracle.witness.testimony import WITNESSES, Testimony, load
 from shared.corpus import golden
 
 EXACT = ("definition", "enclosure", "symbols")
 CAN = Cylinder((0, 0, 0), (0, 0, 2), 1)
 ACROSS = Ray((-3, 0, 1), (1, 0, 0))
-HOLLOW = Question("hollow", Difference((CAN, Sphere((0, 0, 1), 0.5))), ACROSS)
-TWO = Question("two", Union((CAN, Sphere((1, 0, 1), 1), Slab((5, 0, 0), (6, 0, 0)))), ACROSS)
-UP = Question("up", CAN, Ray((0.25, 0, 3), (0.125, 0, -1)))
+HOLLOW = Query("hollow", Difference((CAN, Sphere((0, 0, 1), 0.5))), ACROSS)
+TWO = Query("two", Union((CAN, Sphere((1, 0, 1), 1), Slab((5, 0, 0), (6, 0, 0)))), ACROSS)
+UP = Query("up", CAN, Ray((0.25, 0, 3), (0.125, 0, -1)))
 
 
-def sample(count: int, seed: int) -> list[Question]:
-    return [Question(case.slug, case.solid, case.ray) for case in fresh(count, seed)]
+def sample(count: int, seed: int) -> list[Query]:
+    return [Query(case.slug, case.solid, case.ray) for case in fresh(count, seed)]
 
 
-def outcomes(question: Question, answer: Intervals | None = None) -> list[str]:
-    return [v.outcome for _, v, _ in check(question, EXACT, answer).verdicts]
+def outcomes(question: Query, answer: Intervals | None = None) -> list[str]:
+    return [v.outcome for _, v, _ in check(question, EXACT, answer).testimonies]
 
 
 def test_sample_is_the_same_each_time_and_holds_every_type() -> None:
@@ -72,7 +71,7 @@ def test_one_endpoint_moved_is_caught_by_every_exact_witness() -> None:
     assert planted > 10
 
 
-def caught(questions: list[Question]) -> int:
+def caught(questions: list[Query]) -> int:
     """Return how many answers changed; each that did is caught by all three."""
     changed = 0
     for question in questions:
@@ -122,7 +121,7 @@ def open_ended(one: Intervals, two: Intervals) -> Intervals:
 def test_one_wrong_boolean_is_caught(
     boolean: str,
     fault: Callable[..., Intervals],
-    shown_by: Question,
+    shown_by: Query,
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(traces, boolean, fault)
@@ -132,30 +131,30 @@ def test_one_wrong_boolean_is_caught(
 def test_undecided_is_counted_as_such() -> None:
     summary = Summary.over(["enclosure"])
     checked = replace(
-        check(HOLLOW, []), verdicts=(("enclosure", Verdict("undecided", "", "too near"), 0.5),)
+        check(HOLLOW, []), testimonies=(("enclosure", Testimony("undecided", "", "too near"), 0.5),)
     )
     summary.add(checked)
-    tally = summary.tallies["enclosure"]
+    tally = summary.scores["enclosure"]
     assert (tally.count, tally.outcomes["agreed"], tally.outcomes["undecided"]) == (1, 0, 1)
     assert tally.undecided == {"too near": 1}
     assert (tally.seconds, summary.differing) == (0.5, [])
 
 
 def test_a_witness_that_contradicts_itself_disagrees(monkeypatch: pytest.MonkeyPatch) -> None:
-    def broken(*_: object) -> Verdict:
+    def broken(*_: object) -> Testimony:
         raise ZeroDivisionError("1/0")
 
     monkeypatch.setattr(crosschecks, "load", lambda name: broken)
     checked = check(HOLLOW, ["definition"])
     assert checked.disagreed
-    assert "contradicts itself: ZeroDivisionError: 1/0" in checked.verdicts[0][1].why
+    assert "contradicts itself: ZeroDivisionError: 1/0" in checked.testimonies[0][1].why
 
 
 def test_workers_find_the_same_in_the_same_order() -> None:
     questions = sample(40, 24)
     alone = list(crosscheck(questions, ("definition",), 1))
     shared = list(crosscheck(questions, ("definition",), 2))
-    assert [c.question for c in shared] == questions
+    assert [c.query for c in shared] == questions
     assert [c.answer for c in shared] == [c.answer for c in alone]
 
 
@@ -208,7 +207,7 @@ def test_command_refuses_what_is_no_case() -> None:
 
 
 def test_command_names_the_extra_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(verdicts.WITNESSES, "symbols", "no_such_module:witness")
+    monkeypatch.setitem(WITNESSES, "symbols", "no_such_module:witness")
     status, output = run("--fresh", "5")
     assert status == 3
     assert 'symbols needs no_such_module: pip install "raycert[symbols]"' in output

@@ -22,7 +22,7 @@ from raycert.cases.model import (
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.surd import INFINITY, Surd, fraction
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.witness.cells import closed, combine, gaps, runs, span
+from raycert.oracle.witness.algebra import closed, combine, gaps, runs, span
 from raycert.oracle.witness.definition import between, solve, witness
 
 ALONG = Ray((0, 0, 0), (0, 0, 1))
@@ -125,11 +125,11 @@ def test_a_rational_lies_between(low: Surd, high: Surd) -> None:
 
 def test_runs_of_a_set_that_is_not_closed_are_refused() -> None:
     with pytest.raises(ArithmeticError, match="not closed"):
-        runs(gaps(3), 3)
+        runs(gaps(3), "abc")
     with pytest.raises(ArithmeticError, match="not closed"):
-        runs(2, 1)
-    assert runs(closed(gaps(3), 3), 3) == [(0, None)]
-    assert runs(0, 3) == []
+        runs(2, "a")
+    assert runs(closed(gaps(3), 3), "abc") == [("a", None)]
+    assert runs(0, "abc") == []
 
 
 def test_cells_of_a_span() -> None:

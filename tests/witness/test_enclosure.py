@@ -12,8 +12,15 @@ from raycert.cases.model import Cylinder, Intersection, Ray, Slab, Sphere, Union
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, fraction
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.witness.enclosure import precision, witness
-from raycert.oracle.witness.ends import Blurred, End, compare, same, sign
+from raycert.oracle.witness.enclosure import (
+    Blurred,
+    Enclosed,
+    compare,
+    precision,
+    same,
+    sign,
+    witness,
+)
 
 LEAST = 2.0**-1074
 CAN = Cylinder((0, 0, 0), (0, 0, 2), 1)
@@ -95,8 +102,8 @@ def test_equal_ends_of_different_faces_are_one() -> None:
     assert (verdict.outcome, verdict.found) == ("agreed", "[[2.0, 8.0]]")
 
 
-def end(low: float, high: float, root: int, *coefficients: int) -> End:
-    return End(iv.mpf([low, high]), tuple(map(Fraction, coefficients)), root)
+def end(low: float, high: float, root: int, *coefficients: int) -> Enclosed:
+    return Enclosed(iv.mpf([low, high]), tuple(map(Fraction, coefficients)), root)
 
 
 def test_overlapping_ends_are_equal_only_by_their_polynomials() -> None:

@@ -30,14 +30,24 @@ from raycert.oracle.exact.rounding import enclose
 from raycert.oracle.exact.surd import Surd, dyadic, fraction
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.witness import meshes
-from raycert.oracle.witness.casting import Unsure, chord, may_lose
-from raycert.oracle.witness.convergence import convergence
-from raycert.oracle.witness.frame import AWAY, Line, line, place, vector
-from raycert.oracle.witness.margins import Planes, casts, greatest, measure, on_grid, seeming_move
-from raycert.oracle.witness.meshes import FIRST, SECOND, sandwich, witness
-from raycert.oracle.witness.prism import HUB, MARGIN, TURN, Body, Fineness, Part, Side, ball, prism
+from raycert.oracle.witness.bodies import (
+    HUB,
+    MARGIN,
+    TURN,
+    Body,
+    Fineness,
+    Side,
+    Unsure,
+    ball,
+    chord,
+    may_lose,
+    prism,
+)
+from raycert.oracle.witness.manifold import COARSE, check
+from raycert.oracle.witness.meshes import FIRST, SECOND, convergence, sandwich, witness
+from raycert.oracle.witness.placement import AWAY, CastLine, Part, exact, line, place
 from raycert.oracle.witness.sandwich import ALL, NONE, Sandwich, combine, judge, select
-from raycert.oracle.witness.solids import COARSE, check
+from shared.margins import Planes, casts, greatest, measure, on_grid, seeming_move
 
 CAN = Cylinder((0, 0, 0), (0, 0, 2), 1)
 TUBE = Difference((CAN, Cylinder((0, 0, -1), (0, 0, 3), 0.5)))
@@ -60,11 +70,11 @@ def near(number: Surd, step: Fraction) -> Surd:
     return fraction(moved.numerator, moved.denominator)
 
 
-def cast(start: tuple[float, float, float], direction: tuple[float, float, float]) -> Line:
-    return Line(start, direction, Fraction(0), Fraction(1))
+def cast(start: tuple[float, float, float], direction: tuple[float, float, float]) -> CastLine:
+    return CastLine(start, direction, Fraction(0), Fraction(1))
 
 
-def cast_through(point: np.ndarray, direction: np.ndarray) -> Line:
+def cast_through(point: np.ndarray, direction: np.ndarray) -> CastLine:
     d = direction / np.linalg.norm(direction)
     x, y, z = (float(c) for c in point - AWAY * d)
     return cast((x, y, z), (float(d[0]), float(d[1]), float(d[2])))
@@ -195,7 +205,7 @@ def test_local_coordinates_are_distances_by_definition(shift: int) -> None:
     placed = place(Cylinder(p, q, r), ray)
     for t in (Fraction(0), Fraction(1, 3), Fraction(7)):
         x, y, z = (a + b * t for a, b in placed.forms)
-        u, v, o, e = (vector(c) for c in (ray.origin, ray.direction, p, q))
+        u, v, o, e = (exact(c).parts for c in (ray.origin, ray.direction, p, q))
         at = [a + t * b - c for a, b, c in zip(u, v, o, strict=True)]
         w = [a - b for a, b in zip(e, o, strict=True)]
         along = sum(a * b for a, b in zip(at, w, strict=True)) / sum(c * c for c in w)

@@ -21,10 +21,8 @@ from raycert.cases.model import (
 from raycert.cases.table import PROBLEM_1, PROBLEM_2
 from raycert.oracle.exact.surd import INFINITY, Surd
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.witness.symbols import PROOFS, derivation, equal, pretty
-from raycert.oracle.witness.symbols_conditions import rod
-from raycert.oracle.witness.symbols_solve import witness
-from raycert.oracle.witness.symbols_tables import complete, exclusive
+from raycert.oracle.witness.proofs import PROOFS, complete, derivation, equal, exclusive, pretty
+from raycert.oracle.witness.symbols import rod, witness
 
 CAN = Cylinder((0, 0, 0), (0, 0, 2), 1)
 

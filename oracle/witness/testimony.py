@@ -5,10 +5,10 @@ A witness has three outcomes. `undecided` is never agreement, and no witness gue
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from importlib import import_module
-from typing import Literal
+from typing import Literal, TypeVar
 
 from raycert.cases.model import Ray, Solid
 from raycert.oracle.exact.intervals import Intervals
@@ -17,23 +17,26 @@ from raycert.oracle.exact.surd import Surd
 
 Outcome = Literal["agreed", "undecided", "disagreed"]
 OUTCOMES: tuple[Outcome, ...] = ("agreed", "undecided", "disagreed")
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class Testimony:
     """What a witness says of an answer: the list it `found` itself, and `why` it says so."""
 
     outcome: Outcome
     found: str
     why: str
 
+    __test__ = False  # no class of tests, whatever its name begins with
 
-Witness = Callable[[Solid, Ray, Intervals], Verdict]
+
+Witness = Callable[[Solid, Ray, Intervals], Testimony]
 
 WITNESSES: dict[str, str] = {
     "definition": "raycert.oracle.witness.definition:witness",
     "enclosure": "raycert.oracle.witness.enclosure:witness",
-    "symbols": "raycert.oracle.witness.symbols_solve:witness",
+    "symbols": "raycert.oracle.witness.symbols:witness",
     "meshes": "raycert.oracle.witness.meshes:witness",
 }
 """Each witness as `module:function`, in the order they run."""
@@ -59,17 +62,38 @@ def load(name: str) -> Witness:
     return witness
 
 
+def compared(
+    found: Sequence[tuple[T, T | None]],
+    answer: Intervals,
+    show: Callable[[T | None], str],
+    fault: Callable[[T | None, Surd], str | None],
+    agreed: str,
+) -> Testimony:
+    """Return what a list found says of an answer; None is infinity.
+
+    `fault` says what is wrong with an end of the answer, None if it is the end found, and `agreed`
+    why the two lists are one.
+    """
+    text = "[" + ", ".join(f"[{show(a)}, {show(b)}]" for a, b in found) + "]"
+    if len(found) != len(answer):
+        why = f"{len(found)} intervals, and the answer has {len(answer)}"
+        return Testimony("disagreed", text, why)
+    for number, (pair, other) in enumerate(zip(found, answer, strict=True)):
+        for end, mine, t in zip(("enter", "leave"), pair, other, strict=True):
+            if wrong := fault(mine, t):
+                return Testimony("disagreed", text, f"the {end} of interval {number} {wrong}")
+    return Testimony("agreed", text, agreed)
+
+
 def show(intervals: Intervals) -> str:
     """Return an exact list for people: short fractions as they are, other numbers to 20 digits."""
-    return "[" + ", ".join(f"[{_show(a)}, {_show(b)}]" for a, b in intervals) + "]"
+    return "[" + ", ".join(f"[{show_end(a)}, {show_end(b)}]" for a, b in intervals) + "]"
 
 
-def _show(t: Surd) -> str:
+def show_end(t: Surd | None) -> str:
+    """Return one end for people; None is infinity."""
+    if t is None:
+        return "inf"
     value = t.rational()
     short = value is not None and max(value.numerator, value.denominator) < 10**9
     return str(value) if short else decimal(t, 20)
-
-
-def lengths_differ(found: int, answered: int) -> str:
-    """Return the reason that goes with lists of different lengths."""
-    return f"{found} intervals, and the answer has {answered}"

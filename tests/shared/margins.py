@@ -11,7 +11,8 @@ and the greatest L anywhere for a miss. The doubles of body and cast are taken a
 is rounded but the norms of the planes' normals, by a relative 2^-64. Half of the casts aim where a
 caster is weak: at edges and vertices, along faces and axes, at tangents.
 
-`python -m oracle.witness.margins 40000 1` (casts, seed; 5 minutes) prints the greatest move:
+`PYTHONPATH=tests python -m shared.margins 40000 1` (casts, seed)
+prints in 5 minutes the greatest move:
 
     prism n = 8      40000 casts   2.0e-13   4164 unsure
     prism n = 64     40000 casts   2.3e-13   3938 unsure
@@ -21,8 +22,8 @@ caster is weak: at edges and vertices, along faces and axes, at tangents.
     ball level 4      1250 casts   5.1e-15   69 unsure
 
 It grows as n^2, with the slenderness of the triangles, whose barycentric coordinates trimesh takes
-from a determinant. `MARGIN` in `prism.py`, 2^-30 = 9.3e-10, is 580 times the worst of n <= 256,
-which the witness uses, and 9 times that of n = 4096, which only the curve of convergence does.
+from a determinant. `MARGIN`, 2^-30 = 9.3e-10, is 580 times the worst of n <= 256, which the witness
+uses, and 9 times that of n = 4096, which only the curve of convergence does.
 """
 
 from __future__ import annotations
@@ -35,9 +36,8 @@ from math import isqrt
 
 import numpy as np
 
-from raycert.oracle.witness.casting import Unsure, chord
-from raycert.oracle.witness.frame import AWAY, ONE, ZERO, Line
-from raycert.oracle.witness.prism import Body, Fineness, Floats, Side, ball, prism
+from raycert.oracle.witness.bodies import Body, Fineness, Floats, Side, Unsure, ball, chord, prism
+from raycert.oracle.witness.placement import AWAY, ONE, ZERO, CastLine
 
 GRID = 110
 """Bits of the grid 2^-GRID on which the doubles of bodies and casts lie: those above 2^-57 do."""
@@ -66,7 +66,7 @@ class Planes:
         weights = [(1 << 5 * GRID) // isqrt(square) for square in squares]
         return cls(normals, (normals * a).sum(axis=1), np.array(weights, dtype=object))
 
-    def depths(self, line: Line) -> Lines:
+    def depths(self, line: CastLine) -> Lines:
         """Return the depths along a cast, in units of 2^-6 GRID."""
         start, direction = on_grid(np.array(line.start)), on_grid(np.array(line.direction))
         return (
@@ -113,7 +113,7 @@ def greatest(lines: Lines, low: Fraction, high: Fraction) -> Fraction:
             b, at_high = k, value
 
 
-def seeming_move(body: Body, planes: Planes, line: Line) -> float:
+def seeming_move(body: Body, planes: Planes, line: CastLine) -> float:
     """Return the least move of the faces that explains a cast. Raises `Unsure` as `chord` does."""
     found = chord(body, line)
     lines, first, last = planes.depths(line), ZERO, Fraction(2 * AWAY)
@@ -126,7 +126,7 @@ def seeming_move(body: Body, planes: Planes, line: Line) -> float:
     return float(max(ZERO, *moves) / 2 ** (6 * GRID))
 
 
-def casts(body: Body, count: int, seed: int) -> Iterator[Line]:
+def casts(body: Body, count: int, seed: int) -> Iterator[CastLine]:
     """Yield casts past a body, half of them aimed where a caster is weak."""
     random = np.random.default_rng(seed)
     for number in range(count):
@@ -148,13 +148,13 @@ def _small(random: np.random.Generator) -> Floats:
     return np.asarray(random.normal(size=3) * 10 ** random.uniform(-16, 0))
 
 
-def _through(aim: Floats, d: Floats) -> Line:
+def _through(aim: Floats, d: Floats) -> CastLine:
     """Return the cast through a point, of a length that `frame.line` may give it."""
     d = d / np.linalg.norm(d) * 1.3
     d[np.abs(d) < 2.0**-50] = 0
     aim = aim - (aim @ d) / (d @ d) * d
     x, y, z = (float(c) for c in aim - AWAY * d)
-    return Line((x, y, z), (float(d[0]), float(d[1]), float(d[2])), ZERO, ONE)
+    return CastLine((x, y, z), (float(d[0]), float(d[1]), float(d[2])), ZERO, ONE)
 
 
 @dataclass(frozen=True, slots=True)

@@ -37,23 +37,32 @@ from raycert.cases.model import (
 )
 from raycert.oracle.exact.intervals import Interval, Intervals
 from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, fraction
-from raycert.oracle.witness.casting import Hits, Unsure, hits, may_lose
-from raycert.oracle.witness.frame import (
+from raycert.oracle.witness.algebra import Vec
+from raycert.oracle.witness.bodies import (
+    Body,
+    Crossings,
+    Fineness,
+    Floats,
+    Side,
+    Unsure,
+    ball_surface,
+    hits,
+    may_lose,
+    prism_surface,
+)
+from raycert.oracle.witness.placement import (
     AWAY,
     ONE,
-    Exact,
-    Line,
+    CastLine,
     across,
-    dot,
-    minus,
+    exact,
+    floats,
+    moderate,
     power,
     root,
-    two_to,
-    vector,
 )
-from raycert.oracle.witness.prism import Body, Fineness, Floats, Side, ball_surface, prism_surface
 from raycert.oracle.witness.sandwich import NONE, Sandwich, judge, select
-from raycert.oracle.witness.verdict import Outcome
+from raycert.oracle.witness.testimony import Outcome
 
 WIDE = 2.0**-16
 CUT = 16
@@ -73,28 +82,28 @@ sample, and cost 2.5 times as much at n = 64, level 3."""
 
 
 class NotTried(ValueError):
-    """A scene that does not fit the frame, and why."""
+    """A scene that does not fit one frame, and why."""
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class Viewport:
     """x' = (x - middle) * scale, and the window low <= t <= high."""
 
-    middle: Exact
+    middle: Vec
     scale: Fraction
     low: Fraction
     high: Fraction
 
-    def point(self, x: Vector) -> Exact:
-        """Return a point in the frame."""
-        return times(self.scale, minus(vector(x), self.middle))
+    def point(self, x: Vector) -> Vec:
+        """Return a point in the view."""
+        return self.scale * (exact(x) - self.middle)
 
     def length(self, x: float | Fraction) -> Fraction:
-        """Return a length in the frame, or refuse it; the outer body of 0 takes the least."""
-        found = self.scale * Fraction(x) or SMALLEST
-        if not SMALLEST <= found <= LARGEST:
+        """Return a length in the view, or refuse it; the outer body of 0 takes the least."""
+        length = self.scale * Fraction(x) or SMALLEST
+        if not SMALLEST <= length <= LARGEST:
             raise NotTried("the sizes differ too much for one frame")
-        return found
+        return length
 
     @property
     def window(self) -> Intervals:
@@ -107,11 +116,6 @@ def surd(x: Fraction) -> Surd:
     return fraction(x.numerator, x.denominator)
 
 
-def times(factor: Fraction, a: Exact) -> Exact:
-    """Return factor * a."""
-    return (factor * a[0], factor * a[1], factor * a[2])
-
-
 def check(
     solid: Solid, ray: Ray, answer: Intervals, parts: Sequence[Sandwich]
 ) -> tuple[Outcome, str]:
@@ -120,9 +124,9 @@ def check(
     `parts` are the sandwiches of the leaves, which give the window.
     """
     try:
-        frame = _frame(solid, ray, parts)
+        view = _viewport(solid, ray, parts)
         first, second = (
-            partial(_compare, solid, ray, answer, frame, fineness) for fineness in COARSE
+            partial(_compare, solid, ray, answer, view, fineness) for fineness in COARSE
         )
         outcome, why = first()
         if outcome == "disagreed" and second()[0] != "disagreed":
@@ -134,27 +138,26 @@ def check(
     return outcome, why
 
 
-def _frame(solid: Solid, ray: Ray, parts: Sequence[Sandwich]) -> Frame:
-    """Return the frame whose window holds the outer ends of all leaves, and a quarter more.
+def _viewport(solid: Solid, ray: Ray, parts: Sequence[Sandwich]) -> Viewport:
+    """Return the view whose window holds the outer ends of all leaves, and a quarter more.
 
     Where no leaf begins or ends after 0, the window holds the ray as far as the leaves are.
     """
-    u, v = vector(ray.origin), vector(ray.direction)
-    speed = max(abs(c) for c in v)
+    u, v = exact(ray.origin), exact(ray.direction)
+    speed = max(map(abs, v.parts))
     if not speed:
         raise NotTried("the ray stays at its origin")
     ends = {e.rational() for part in parts for pair in part.outer for e in pair if e != INFINITY}
     known = [end for end in ends if end is not None]
     if not any(known):
-        away = [minus(vector(_anchor(leaf)), u) for _, leaf in leaves(solid)]
-        known = [max(abs(c) for c in d) / speed for d in away]
+        away = [exact(_anchor(leaf)) - u for _, leaf in leaves(solid)]
+        known = [max(map(abs, d.parts)) / speed for d in away]
     if not any(known):
         raise NotTried("the ray starts where the leaves are, and meets no end of theirs")
     pad = (max(known) - min(known) or max(known)) / 4
     low, high = max(min(known) - pad, Fraction(0)), max(known) + pad
     center, reach = (low + high) / 2, (high - low) / 2
-    middle = minus(u, times(-center, v))
-    return Frame(middle, 1 / power(reach * root(dot(v, v))), low, high)
+    return Viewport(u + center * v, 1 / power(reach * root(v @ v)), low, high)
 
 
 def _anchor(leaf: Leaf) -> Vector:
@@ -168,18 +171,18 @@ def _anchor(leaf: Leaf) -> Vector:
 
 
 def _compare(
-    solid: Solid, ray: Ray, answer: Intervals, frame: Frame, fineness: Fineness
+    solid: Solid, ray: Ray, answer: Intervals, view: Viewport, fineness: Fineness
 ) -> tuple[Outcome, str]:
     inner, outer = (
-        select((_cast(_build(solid, frame, fineness, side), ray, frame), frame.window), all)
+        select((_cast(_build(solid, view, fineness, side), ray, view), view.window), all)
         for side in (Side.INNER, Side.OUTER)
     )
-    low, high = frame.window[0]
+    low, high = view.window[0]
     seen = [(max(a, low), min(b, high)) for a, b in answer]
     return judge(tuple((a, b) for a, b in seen if a <= b), Sandwich(inner, outer))
 
 
-def _build(solid: Solid, frame: Frame, fineness: Fineness, side: Side) -> Manifold:
+def _build(solid: Solid, view: Viewport, fineness: Fineness, side: Side) -> Manifold:
     """Return the inner or outer body of a solid; a part that is taken away changes sides."""
     match solid:
         case Union():
@@ -189,23 +192,22 @@ def _build(solid: Solid, frame: Frame, fineness: Fineness, side: Side) -> Manifo
         case Difference():
             kind = OpType.Subtract
         case _:
-            return _leaf(solid, frame, fineness, side)
+            return _leaf(solid, view, fineness, side)
     away = side.other if isinstance(solid, Difference) else side
-    parts = [_build(part, frame, fineness, away if i else side) for i, part in enumerate(solid.of)]
+    parts = [_build(part, view, fineness, away if i else side) for i, part in enumerate(solid.of)]
     return Manifold.batch_boolean(parts, kind)
 
 
-def _leaf(leaf: Leaf, frame: Frame, fineness: Fineness, side: Side) -> Manifold:
-    """Return a unit body, moved to where its leaf is in the frame."""
+def _leaf(leaf: Leaf, view: Viewport, fineness: Fineness, side: Side) -> Manifold:
+    """Return a unit body, moved to where its leaf is in the view."""
     surface = _ball if isinstance(leaf, Sphere) else _prism
     if side is Side.INNER and not getattr(leaf, "radius", True):
         return Manifold()
     vertices, faces = surface(fineness, side)
-    middle, columns = _place(leaf, frame)
-    if max(abs(c) for c in middle) > 4 * LARGEST:
+    middle, columns = _place(leaf, view)
+    if max(map(abs, middle.parts)) > 4 * LARGEST:
         raise NotTried("a leaf is far from where the leaves begin and end")
-    matrix = np.array([[float(c) for c in column] for column in columns])
-    moved = vertices @ matrix + np.array([float(c) for c in middle])
+    moved = vertices @ np.array([floats(column) for column in columns]) + floats(middle)
     body = Manifold(Mesh64(np.ascontiguousarray(moved), faces.astype(np.uint64)))
     if body.status() != Error.NoError:
         raise Unsure(f"Manifold refuses a body: {body.status()}")
@@ -222,41 +224,45 @@ def _ball(fineness: Fineness, side: Side) -> tuple[Floats, np.ndarray]:
     return ball_surface(fineness, side, WIDE)
 
 
-def _place(leaf: Leaf, frame: Frame) -> tuple[Exact, tuple[Exact, Exact, Exact]]:
+def _place(leaf: Leaf, view: Viewport) -> tuple[Vec, tuple[Vec, Vec, Vec]]:
     """Return where the middle and the three axes of the unit body go."""
     match leaf:
         case Sphere():
-            r, o = frame.length(leaf.radius), Fraction(0)
-            return frame.point(leaf.center), ((r, o, o), (o, r, o), (o, o, r))
+            r, o = view.length(leaf.radius), Fraction(0)
+            return view.point(leaf.center), (Vec(r, o, o), Vec(o, r, o), Vec(o, o, r))
         case HalfSpace():
-            normal = vector(leaf.normal)
-            foot = _onto(frame.point(leaf.point), normal)
-            depth = CUT + root(dot(foot, foot) or ONE)
-            up = times(depth / root(dot(normal, normal)), normal)
-            return minus(foot, up), _axes(up, Fraction(CUT))
-    p, q = frame.point(leaf.p), frame.point(leaf.q)
-    w, middle = minus(q, p), times(ONE / 2, minus(p, times(-ONE, q)))
+            normal = exact(leaf.normal)
+            foot = _onto(view.point(leaf.point), normal)
+            up = _as_long(CUT + root(foot @ foot or ONE), normal)
+            return foot - up, _axes(up, Fraction(CUT))
+    p, q = view.point(leaf.p), view.point(leaf.q)
+    w, middle = q - p, (p + q) / 2
     if isinstance(leaf, InfiniteCylinder):
-        along = times(CUT / root(dot(w, w)), w)
-        return minus(p, _onto(p, w)), _axes(along, frame.length(leaf.radius))
-    frame.length(root(dot(w, w)))
+        return p - _onto(p, w), _axes(_as_long(Fraction(CUT), w), view.length(leaf.radius))
+    view.length(root(w @ w))
     if isinstance(leaf, Slab):
-        return _onto(middle, w), _axes(times(ONE / 2, w), Fraction(CUT))
-    return middle, _axes(times(ONE / 2, w), frame.length(leaf.radius))
+        return _onto(middle, w), _axes(w / 2, Fraction(CUT))
+    return middle, _axes(w / 2, view.length(leaf.radius))
 
 
-def _onto(x: Exact, w: Exact) -> Exact:
+def _onto(x: Vec, w: Vec) -> Vec:
     """Return the part of x along w."""
-    return times(dot(x, w) / dot(w, w), w)
+    part: Vec = (x @ w / (w @ w)) * w
+    return part
 
 
-def _axes(w: Exact, radius: Fraction) -> tuple[Exact, Exact, Exact]:
+def _as_long(length: Fraction, w: Vec) -> Vec:
+    """Return the vector of a length in the direction of w."""
+    return (length / root(w @ w)) * w
+
+
+def _axes(w: Vec, radius: Fraction) -> tuple[Vec, Vec, Vec]:
     """Return the right-handed axes of a prism with a half axis w."""
-    e, f = across(w)
-    return times(radius / root(dot(e, e)), e), times(radius / root(dot(f, f)), f), w
+    e, f = (_as_long(radius, g) for g in across(w))
+    return e, f, w
 
 
-def _cast(solid: Manifold, ray: Ray, frame: Frame) -> Intervals:
+def _cast(solid: Manifold, ray: Ray, view: Viewport) -> Intervals:
     """Return the t >= 0 for which the ray is within a body, which need not be convex."""
     if solid.is_empty():
         return NONE
@@ -264,23 +270,20 @@ def _cast(solid: Manifold, ray: Ray, frame: Frame) -> Intervals:
     body = Body.of(
         np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts).astype(np.int64)
     )
-    v = times(frame.scale, vector(ray.direction))
-    square = dot(v, v)
-    pace = two_to(-((square.numerator.bit_length() - square.denominator.bit_length()) // 2))
-    d = times(pace, v)
-    center = (frame.low + frame.high) / 2
-    x, y, z = (float(-START * c) for c in d)
-    t0 = center - pace * (START - AWAY)
-    line = Line((x, y, z), (float(d[0]), float(d[1]), float(d[2])), t0, pace)
+    v = view.scale * exact(ray.direction)
+    pace = moderate(v)
+    d = pace * v
+    t0 = (view.low + view.high) / 2 - pace * (START - AWAY)
+    line = CastLine(floats(-START * d), floats(d), t0, pace)
     if may_lose(body, line):
         raise Unsure("a face of the combined bodies is too near parallel")
     return _alternating(hits(body, line), line)
 
 
-def _alternating(found: Hits, line: Line) -> Intervals:
+def _alternating(crossings: Crossings, line: CastLine) -> Intervals:
     """Return the list that hits make which enter and leave in turn, each at a place of its own."""
     ends: list[tuple[float, bool]] = []
-    for tau, inward in zip(found.tau.tolist(), found.inward, strict=True):
+    for tau, inward in zip(crossings.tau.tolist(), crossings.inward, strict=True):
         apart = tau - ends[-1][0] if ends else 1.0
         if apart <= SPREAD and ends[-1][1] == inward:
             continue
@@ -290,6 +293,6 @@ def _alternating(found: Hits, line: Line) -> Intervals:
     turns = [inward for _, inward in ends]
     if turns != [True, False] * (len(ends) // 2):
         raise Unsure("the hits of the combined bodies do not enter and leave in turn")
-    times_ = [surd(line.t0 + line.pace * (Fraction(tau) - AWAY)) for tau, _ in ends]
-    pairs: list[Interval] = list(zip(times_[::2], times_[1::2], strict=True))
+    times = [surd(line.t0 + line.pace * (Fraction(tau) - AWAY)) for tau, _ in ends]
+    pairs: list[Interval] = list(zip(times[::2], times[1::2], strict=True))
     return tuple((max(a, ZERO), b) for a, b in pairs if b > ZERO)

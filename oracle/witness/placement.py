@@ -20,6 +20,7 @@ above see to it that it meets such a face only where the leaf has no end.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from enum import Enum
 from fractions import Fraction
 from math import isqrt
 
@@ -33,18 +34,26 @@ from raycert.cases.model import (
     Sphere,
     Vector,
 )
-from raycert.oracle.witness.prism import Part
+from raycert.oracle.witness.algebra import Vec
 
-Exact = tuple[Fraction, Fraction, Fraction]
 Form = tuple[Fraction, Fraction]
-Triple = tuple[float, float, float]
 ZERO, ONE = Fraction(0), Fraction(1)
+
+
+class Part(Enum):
+    """The parts of the surface of a unit cylinder, or of a prism."""
+
+    WALL = 0
+    BOTTOM = 1
+    TOP = 2
+
+
 EVERY_PART = frozenset(Part)
 
 AWAY = 8
 """How many steps before the middle a cast starts; a step is 0.7 to 2, a body lies within 1.6."""
 
-STRAY: Exact = (Fraction(3, 7), Fraction(5, 7), Fraction(4, 7))
+STRAY = Vec(Fraction(3, 7), Fraction(5, 7), Fraction(4, 7))
 """The direction of the cast that tells whether a ray that stays at its origin is inside."""
 
 NEEDLE = Fraction(1, 2**20)
@@ -63,50 +72,39 @@ class Placed:
 
     @property
     def still(self) -> bool:
-        """Tell whether the ray stays at its origin."""
+        """Whether the ray stays at its origin."""
         return not any(slope for _, slope in self.forms)
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class CastLine:
     """A cast from `start` along `direction`, whose parameter tau is t = t0 + pace (tau - AWAY).
 
     start and direction are the exact ones, rounded: their points are off by less than 1e-14 on the
     whole way of 16 steps, as coordinates below 32 round by 2^-49 and slopes below 2 by 2^-53.
     """
 
-    start: Triple
-    direction: Triple
+    start: tuple[float, float, float]
+    direction: tuple[float, float, float]
     t0: Fraction
     pace: Fraction
 
 
-def vector(v: Vector) -> Exact:
+def exact(vector: Vector) -> Vec:
     """Return three numbers as fractions."""
-    return (Fraction(v[0]), Fraction(v[1]), Fraction(v[2]))
+    return Vec.of(vector, Fraction)
 
 
-def dot(a: Exact, b: Exact) -> Fraction:
-    """Return a . b."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def minus(a: Exact, b: Exact) -> Exact:
-    """Return a - b."""
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def cross(a: Exact, b: Exact) -> Exact:
-    """Return a x b."""
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def across(w: Exact) -> tuple[Exact, Exact]:
+def across(w: Vec) -> tuple[Vec, Vec]:
     """Return two vectors square to w != 0 and to each other."""
-    least = min(range(3), key=lambda i: abs(w[i]))
-    axis = (Fraction(least == 0), Fraction(least == 1), Fraction(least == 2))
-    e = cross(w, axis)
-    return e, cross(w, e)
+    least = min(range(3), key=lambda i: abs(w.parts[i]))
+    e = w ^ Vec(*(Fraction(i == least) for i in range(3)))
+    return e, w ^ e
+
+
+def floats(a: Vec) -> tuple[float, float, float]:
+    """Return a vector in doubles."""
+    return (float(a.x), float(a.y), float(a.z))
 
 
 def root(square: Fraction) -> Fraction:
@@ -131,7 +129,7 @@ def two_to(k: int) -> Fraction:
 
 def place(leaf: Leaf, ray: Ray) -> Placed:
     """Return the ray in the coordinates of a leaf."""
-    u, v = vector(ray.origin), vector(ray.direction)
+    u, v = exact(ray.origin), exact(ray.direction)
     match leaf:
         case Sphere():
             return _sphere(leaf, u, v)
@@ -142,37 +140,36 @@ def place(leaf: Leaf, ray: Ray) -> Placed:
     return _cylinder(leaf, u, v)
 
 
-def _radius(radius: float, *nearby: Exact) -> Fraction:
-    size = max(abs(x) for point in nearby for x in point)
+def _radius(radius: float, *nearby: Vec) -> Fraction:
+    size = max(abs(x) for point in nearby for x in point.parts)
     return Fraction(radius) or (NEEDLE * size if size else ONE)
 
 
-def _sphere(leaf: Sphere, u: Exact, v: Exact) -> Placed:
-    y = minus(u, vector(leaf.center))
+def _sphere(leaf: Sphere, u: Vec, v: Vec) -> Placed:
+    y = u - exact(leaf.center)
     r = _radius(leaf.radius, y)
-    x, y_, z = ((a / r, b / r) for a, b in zip(y, v, strict=True))
-    return Placed((x, y_, z), round=True, hollow=not leaf.radius)
+    forms = zip((y / r).parts, (v / r).parts, strict=True)
+    return Placed(tuple(forms), round=True, hollow=not leaf.radius)  # type: ignore[arg-type]
 
 
-def _along(leaf: Slab | Cylinder | InfiniteCylinder, u: Exact, v: Exact) -> Form:
+def _along(leaf: Slab | Cylinder | InfiniteCylinder, u: Vec, v: Vec) -> Form:
     """Return the form of z: -1 on the plane through p, 1 on the one through q."""
-    p, q = vector(leaf.p), vector(leaf.q)
-    w = minus(q, p)
-    half = dot(w, w) / 2
-    return dot(minus(u, p), w) / half - 1, dot(v, w) / half
+    p = exact(leaf.p)
+    w = exact(leaf.q) - p
+    half = w @ w / 2
+    return (u - p) @ w / half - 1, v @ w / half
 
 
-def _cylinder(leaf: Cylinder | InfiniteCylinder, u: Exact, v: Exact) -> Placed:
-    p = vector(leaf.p)
-    w, y = minus(vector(leaf.q), p), minus(u, p)
+def _cylinder(leaf: Cylinder | InfiniteCylinder, u: Vec, v: Vec) -> Placed:
+    p = exact(leaf.p)
+    w, y = exact(leaf.q) - p, u - p
     r = _radius(leaf.radius, y, w)
-    e, f = across(w)
-    scales = [1 / (r * root(dot(g, g))) for g in (e, f)]
-    x1, x2 = ((dot(y, g) * s, dot(v, g) * s) for g, s in zip((e, f), scales, strict=True))
+    e, f = (g / (r * root(g @ g)) for g in across(w))
+    x1, x2 = (y @ e, v @ e), (y @ f, v @ f)
     hollow = not leaf.radius
     if isinstance(leaf, Cylinder):
         return Placed((x1, x2, _along(leaf, u, v)), round=False, hollow=hollow)
-    z = _free_axis(x1, x2, dot(v, w))
+    z = _free_axis(x1, x2, v @ w)
     return Placed((x1, x2, z), round=False, parts=frozenset({Part.WALL}), hollow=hollow)
 
 
@@ -191,60 +188,58 @@ def _free_axis(x: Form, y: Form, climb: Fraction) -> Form:
     return -slope * nearest, slope
 
 
-def _sideways(normal: Exact, v: Exact, climb: Fraction, crossing: Fraction) -> tuple[Form, Form]:
+def _sideways(normal: Vec, v: Vec, climb: Fraction, crossing: Fraction) -> tuple[Form, Form]:
     """Return x and y for a body of planes: 0 at t = `crossing`, and slopes below |climb| / 4.
 
     With climb = 0 the slopes are any; the ray then leaves through the wall.
     """
     forms: list[Form] = []
     for e in across(normal):
-        slope = dot(v, e)
+        slope = v @ e
         if slope:
             slope *= power(abs(climb) or ONE) / power(abs(slope)) / 16
         forms.append((-slope * crossing, slope))
     return forms[0], forms[1]
 
 
-def _slab(leaf: Slab, u: Exact, v: Exact) -> Placed:
+def _slab(leaf: Slab, u: Vec, v: Vec) -> Placed:
     z = _along(leaf, u, v)
-    w = minus(vector(leaf.q), vector(leaf.p))
+    w = exact(leaf.q) - exact(leaf.p)
     x, y = _sideways(w, v, z[1], -z[0] / z[1] if z[1] else ZERO)
     return Placed((x, y, z), round=False, parts=frozenset({Part.TOP, Part.BOTTOM}))
 
 
-def _half_space(leaf: HalfSpace, u: Exact, v: Exact) -> Placed:
-    normal = vector(leaf.normal)
-    height, climb = dot(minus(u, vector(leaf.point)), normal), dot(v, normal)
-    if climb:
-        z = (1 + height, climb)
-        x, y = _sideways(normal, v, climb, -height / climb)
-    else:
-        z = (ZERO if height < 0 else ONE if height == 0 else 2 * ONE, ZERO)
-        x, y = _sideways(normal, v, ZERO, ZERO)
+def _half_space(leaf: HalfSpace, u: Vec, v: Vec) -> Placed:
+    normal = exact(leaf.normal)
+    height, climb = (u - exact(leaf.point)) @ normal, v @ normal
+    x, y = _sideways(normal, v, climb, -height / climb if climb else ZERO)
+    level = ZERO if height < 0 else ONE if height == 0 else 2 * ONE
+    z = (1 + height, climb) if climb else (level, ZERO)
     return Placed((x, y, z), round=False, parts=frozenset({Part.TOP}))
 
 
-def line(placed: Placed) -> Line | None:
+def line(placed: Placed) -> CastLine | None:
     """Return the cast of a ray; None where its line stays more than AWAY from the middle.
 
     The direction is brought to a length of 0.7 to 2 by a power of two, which is exact: the caster
     takes 1e-5 for parallel and -1e-6 for behind whatever the direction is. With 1/2 < s / 2^k < 2
     for the square s of its length, that over 4^floor(k / 2) lies between 1/2 and 4.
     """
-    x, y, z = placed.forms
-    a, b = (x[0], y[0], z[0]), (x[1], y[1], z[1])
+    a, b = (Vec(*numbers) for numbers in zip(*placed.forms, strict=True))
     if placed.still:
         return _through(a, STRAY, ZERO, ONE)
-    square = dot(b, b)
-    t0 = -dot(a, b) / square
-    k = square.numerator.bit_length() - square.denominator.bit_length()
-    pace = two_to(-(k // 2))
-    middle = (a[0] + b[0] * t0, a[1] + b[1] * t0, a[2] + b[2] * t0)
-    return _through(middle, (b[0] * pace, b[1] * pace, b[2] * pace), t0, pace)
+    t0 = -(a @ b) / (b @ b)
+    pace = moderate(b)
+    return _through(a + t0 * b, pace * b, t0, pace)
 
 
-def _through(middle: Exact, d: Exact, t0: Fraction, pace: Fraction) -> Line | None:
-    if max(abs(c) for c in middle) > AWAY:
+def moderate(v: Vec) -> Fraction:
+    """Return the power of two by which v gets a length of 0.7 to 2."""
+    square = v @ v
+    return two_to(-((square.numerator.bit_length() - square.denominator.bit_length()) // 2))
+
+
+def _through(middle: Vec, d: Vec, t0: Fraction, pace: Fraction) -> CastLine | None:
+    if max(map(abs, middle.parts)) > AWAY:
         return None
-    x, y, z = (float(m - AWAY * s) for m, s in zip(middle, d, strict=True))
-    return Line((x, y, z), (float(d[0]), float(d[1]), float(d[2])), t0, pace)
+    return CastLine(floats(middle - AWAY * d), floats(d), t0, pace)
