@@ -28,6 +28,7 @@ from raycert.cases.model import (
     Tree,
     Union,
 )
+from raycert.cases.strategies import scenes as drawn
 from raycert.oracle.exact.intervals import contains
 from raycert.oracle.exact.rounding import enclose, nearest
 from raycert.oracle.exact.surd import Surd, dyadic
@@ -39,25 +40,8 @@ Pairs = list[tuple[float, float]]
 ONE, TWO = 8, 10
 """The steps of k = 1 and k = 2."""
 formats = st.sampled_from([BINARY64, BINARY32])
-unit = st.floats(-4, 4, width=32)
-fine_points = st.tuples(unit, unit, unit)
-fine_axes = st.tuples(fine_points, fine_points).filter(lambda pq: pq[0] != pq[1])
-fine_radii = st.floats(0, 4, width=32)
-fine_leaves = st.one_of(
-    st.builds(Sphere, fine_points, fine_radii),
-    st.builds(lambda pq, r: Cylinder(*pq, r), fine_axes, fine_radii),
-    st.builds(lambda pq, r: InfiniteCylinder(*pq, r), fine_axes, fine_radii),
-    st.builds(lambda pq: Slab(*pq), fine_axes),
-)
-fine_trees = st.builds(
-    lambda kind, parts: kind(tuple(parts)),
-    st.sampled_from([Union, Intersection, Difference]),
-    st.lists(fine_leaves, min_size=1, max_size=3),
-)
-fine_rays = st.builds(Ray, fine_points, fine_points)
 grid_scenes = st.tuples(solids, rays)
-fine_scenes = st.tuples(st.one_of(fine_leaves, fine_trees), fine_rays)
-scenes = st.one_of(grid_scenes, fine_scenes)
+scenes = st.one_of(grid_scenes, drawn(3, fmt=BINARY32))
 
 
 @settings(max_examples=300, deadline=None)
@@ -273,7 +257,7 @@ def test_the_forward_error_is_the_distance_in_ulps(
     if malformed(answer) is not None or (isinf(b) and answer[0][1] != b):
         return
     ends = zip(answer[0], (enter, leave), strict=True)
-    truth = max(surd_ulps(x, t, fmt) for x, t in ends if t.finite)
+    truth = max((surd_ulps(x, t, fmt) for x, t in ends if not isinf(x)), default=0.0)
     assert judge.forward_error(answer) == pytest.approx(truth, rel=1e-6)
 
 
