@@ -1,4 +1,4 @@
-"""A case as a command takes it: a solid and a ray by options, or an object of the line protocol.
+"""A case as a command takes it: a golden row, a solid and a ray by options, or a JSON object.
 
 Numbers on a command line are decimals or hex floats, and are taken to the nearest number of the
 format; which of them are not exact is noted.
@@ -11,15 +11,22 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from raycert.oracle.commands.options import BadInput
+from raycert.oracle.commands.options import (
+    BadInput,
+    find,
+    golden_option,
+    precision_option,
+    read,
+)
 
 if TYPE_CHECKING:
     from fractions import Fraction
 
     from raycert.cases.formats import Format
     from raycert.cases.forms import Json
-    from raycert.cases.model import Ray, Solid
-    from raycert.oracle.explain.form import Fact
+    from raycert.cases.numbers import Probe
+    from raycert.cases.row import GoldenRow
+    from raycert.oracle.explain.wording import Fact
 
 SHAPES = {
     "cylinder": ("p", "q", "radius"),
@@ -40,31 +47,58 @@ HELP = {
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 
-def shape_options(function: Decorated) -> Decorated:
-    """Add an option for each solid that options can spell, and one for the ray."""
+def case_options(function: Decorated) -> Decorated:
+    """Add what names one case: an ID, a solid and a ray by options, or --json; and of which rows.
+
+    `count_given` says how many of the three there are, `chosen` gives the case.
+    """
+    function = golden_option(precision_option(function))
+    function = click.option(
+        "--json",
+        "file",
+        type=click.File("rb"),
+        help="File with solid and ray; - is standard input.",
+    )(function)
     function = click.option("--ray", nargs=2, metavar="U V", help="Origin and direction.")(function)
     for name in reversed(SHAPES):
-        words = tuple("R" if field == "radius" else field.upper() for field in SHAPES[name])
-        option = f"--{name.replace('_', '-')}"
-        about, metavar = HELP[name], " ".join(words)
-        function = click.option(option, name, nargs=len(words), metavar=metavar, help=about)(
+        words = ["R" if field == "radius" else field.upper() for field in SHAPES[name]]
+        option, metavar = f"--{name.replace('_', '-')}", " ".join(words)
+        function = click.option(option, name, nargs=len(words), metavar=metavar, help=HELP[name])(
             function
         )
-    return function
+    return click.argument("id", required=False)(function)
 
 
-def words_given(options: dict[str, Any]) -> bool:
-    """Tell whether any of these options is given."""
-    return bool(options["ray"] or any(options[name] for name in SHAPES))
+def count_given(options: dict[str, Any]) -> int:
+    """Return in how many ways a case is named."""
+    words = options["ray"] or any(options[name] for name in SHAPES)
+    return bool(options["id"]) + bool(options["file"]) + bool(words)
 
 
-def from_json(data: bytes, fmt: Format, option: str) -> tuple[Solid, Ray]:
+def chosen(options: dict[str, Any], rounded: list[Fact]) -> Probe | GoldenRow:
+    """Return the golden row with the ID, or else the case of --json or of the solid and the ray.
+
+    What of the words is no number of the format is noted in `rounded`. Ends the command with exit
+    status 2 where there is no such row or case.
+    """
+    from raycert.cases.formats import FORMATS
+
+    fmt = FORMATS[options["precision"]]
+    if options["id"]:
+        return find(read(options["precision"], options["golden"]), options["id"])
+    if options["file"]:
+        return from_json(options["file"].read(), fmt, "--json")
+    return _from_words(options, fmt, rounded)
+
+
+def from_json(data: bytes, fmt: Format, option: str) -> Probe:
     """Return the case of an object with solid and ray; strings are hex floats or bit patterns.
 
     Ends the command with exit status 2 where it is none; `option` names it in the message.
     """
     from raycert.cases.forms import read_ray, read_solid
     from raycert.cases.model import Refused
+    from raycert.cases.numbers import Probe
     from raycert.cases.protocol import BadLine, decode
 
     try:
@@ -74,11 +108,12 @@ def from_json(data: bytes, fmt: Format, option: str) -> tuple[Solid, Ray]:
                 raise Refused(name, 'is missing; the form is {"solid": {...}, "ray": {...}}')
         spelling = _spelling(form["ray"])
         ray = read_ray(form["ray"], "ray", spelling, fmt)
-        return read_solid(form["solid"], "solid", spelling, fmt), ray
+        return Probe(read_solid(form["solid"], "solid", spelling, fmt), ray)
     except BadLine as error:
         raise BadInput(f"{option} {error}") from None
     except Refused as refusal:
-        raise BadInput(f"{refusal}{_advice(fmt)}") from None
+        advice = "" if fmt.name == "binary64" else f" (for --precision {fmt.name})"
+        raise BadInput(f"{refusal}{advice}") from None
 
 
 def _spelling(ray: object) -> Any:
@@ -90,14 +125,11 @@ def _spelling(ray: object) -> Any:
     return "hex" if "x" in first.lower() else "bits"
 
 
-def _advice(fmt: Format) -> str:
-    return "" if fmt.name == "binary64" else f" (for --precision {fmt.name})"
-
-
-def from_words(options: dict[str, Any], fmt: Format, rounded: list[Fact]) -> tuple[Solid, Ray]:
+def _from_words(options: dict[str, Any], fmt: Format, rounded: list[Fact]) -> Probe:
     """Return the solid and the ray of the options; note in `rounded` each number not exact."""
     from raycert.cases.forms import read_ray, read_solid
     from raycert.cases.model import Refused
+    from raycert.cases.numbers import Probe
 
     shapes = [name for name in SHAPES if options[name]]
     if len(shapes) != 1 or not options["ray"]:
@@ -106,22 +138,19 @@ def from_words(options: dict[str, Any], fmt: Format, rounded: list[Fact]) -> tup
     solid: Json = {"type": name}
     try:
         for field, word in zip(SHAPES[name], options[name], strict=True):
-            solid[field] = _value(word, f"solid.{field}", fmt, rounded, field == "radius")
+            read = _number if field == "radius" else _vector
+            solid[field] = read(word, f"solid.{field}", fmt, rounded)
         fields = zip(("origin", "direction"), options["ray"], strict=True)
-        ray = {field: _value(word, f"ray.{field}", fmt, rounded) for field, word in fields}
-        return read_solid(solid, fmt=fmt), read_ray(ray, fmt=fmt)
+        ray = {field: _vector(word, f"ray.{field}", fmt, rounded) for field, word in fields}
+        return Probe(read_solid(solid, fmt=fmt), read_ray(ray, fmt=fmt))
     except Refused as refusal:
         raise BadInput(str(refusal)) from None
 
 
-def _value(
-    word: str, path: str, fmt: Format, rounded: list[Fact], single: bool = False
-) -> float | list[float]:
-    """Return the number or the vector that a word spells."""
+def _vector(word: str, path: str, fmt: Format, rounded: list[Fact]) -> list[float]:
+    """Return the vector that a word spells."""
     from raycert.cases.model import Refused
 
-    if single:
-        return _number(word, path, fmt, rounded)
     parts = word.split(",")
     if len(parts) != 3:
         raise Refused(path, f"is not three numbers x,y,z without blanks: {word!r:.40}")
@@ -136,7 +165,7 @@ def _number(text: str, path: str, fmt: Format, rounded: list[Fact]) -> float:
     from raycert.cases.model import Refused
     from raycert.oracle.exact.rounding import enclose
     from raycert.oracle.exact.surd import fraction
-    from raycert.oracle.explain.form import Fact, about, dyadic
+    from raycert.oracle.explain.wording import Fact, about, dyadic
 
     try:
         number = float.fromhex(text) if "x" in text.lower() else float(text)

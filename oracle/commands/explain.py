@@ -1,4 +1,4 @@
-"""`raycert explain`: one case, derived in the seed's own steps."""
+"""`raycert explain`: one case, derived step by step."""
 
 from __future__ import annotations
 
@@ -7,18 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.asking import from_json, from_words, shape_options, words_given
-from raycert.oracle.commands.options import (
-    check_writable,
-    find,
-    golden_option,
-    precision_option,
-    read,
-)
+from raycert.oracle.commands.asking import case_options, chosen, count_given
+from raycert.oracle.commands.options import check_writable, stop, write_text
 
 if TYPE_CHECKING:
     from raycert.oracle.explain.derive import Derivation
-    from raycert.oracle.explain.form import Fact
+    from raycert.oracle.explain.wording import Fact
     from raycert.oracle.witness.proofs import Statement
 
 EXAMPLES = """\b
@@ -35,11 +29,7 @@ Examples:
 
 
 @click.command(epilog=EXAMPLES)
-@click.argument("id", required=False)
-@shape_options
-@click.option(
-    "--json", "file", type=click.File("rb"), help="File with solid and ray; - is standard input."
-)
+@case_options
 @click.option(
     "--format",
     "form",
@@ -63,10 +53,8 @@ Examples:
     is_flag=True,
     help="Before the case, or alone: SymPy's proofs of the formulas used.",
 )
-@precision_option
-@golden_option
-def explain(id: str | None, form: str, symbolic: bool, **options: Any) -> None:
-    """Derive one case in the seed's steps: every quantity of its three problems, exactly.
+def explain(form: str, symbolic: bool, full: bool, **options: Any) -> None:
+    """Derive one case step by step: every quantity of its three problems, exactly.
 
     Shown are the row of each table that holds and why the others do not, the endpoints exactly
     and rounded, their condition, and what the textbook formula makes of them.
@@ -79,62 +67,97 @@ def explain(id: str | None, form: str, symbolic: bool, **options: Any) -> None:
     around each end, and what implementations answer beside the exact list. A TARGET is one that
     certify takes.
 
-    --symbolic needs no case. It derives the seed's formulas from the definitions and proves them
+    --symbolic needs no case. It derives the formulas from the definitions and proves them
     equal to the oracle's code, run on symbols; exit 1 if a proof fails, 3 without SymPy.
     """
-    given = bool(id) + bool(options["file"])
-    given += words_given(options)
+    given, page = count_given(options), options["html"]
     if given > 1 or not (given or symbolic):
         raise click.UsageError("give one case: an ID, or --json, or a solid with --ray")
-    page = options["html"]
     if page and (not given or form == "json"):
         raise click.UsageError("--html is a page of one case, and instead of --format json")
     if options["targets"] and not page:
         raise click.UsageError("--with is for the page; add --html FILE")
     if page and page != "-":
         check_writable(Path(page).parent, "--html")
-    derivation = _derivation(id, options) if given else None
-    statements = None
-    if symbolic:
-        from raycert.oracle.commands.symbolic import proofs
-
-        statements = proofs()
+    derivation = _derivation(options) if given else None
+    statements = _proofs() if symbolic else None
     if page and derivation is not None:
-        _write(page, derivation, options, id)
+        _write(page, derivation, options)
         derivation = None
-    if derivation is not None or statements is not None:
-        _show(derivation, statements, form, options["full"])
+    if form == "json":
+        _print_json(derivation, statements)
+    else:
+        _print(derivation, statements, full)
+    if not all(statement.proved for statement in statements or ()):
+        raise SystemExit(1)
 
 
-def _write(file: str, derivation: Derivation, options: dict[str, Any], id: str | None) -> None:
+def _derivation(options: dict[str, Any]) -> Derivation:
+    """Return the derivation of the case that the words name."""
+    from dataclasses import replace
+
+    from raycert.cases.formats import FORMATS
+    from raycert.cases.row import GoldenRow
+    from raycert.oracle.explain.derive import as_given, derive, given
+    from raycert.oracle.explain.wording import Passage
+
+    fmt = FORMATS[options["precision"]]
+    rounded: list[Fact] = []
+    case = chosen(options, rounded)
+    if isinstance(case, GoldenRow):
+        derivation = derive(as_given(case), fmt, case.family)
+        if derivation.row != case:
+            text = f"{case.id}: the file holds another answer; see: raycert golden check"
+            click.echo(text, err=True)
+        return derivation
+    derivation = derive(given(*case), fmt)
+    if not rounded:
+        return derivation
+    taken = Passage(f"Taken as {fmt.name} numbers", tuple(rounded))
+    return replace(derivation, steps=(taken, *derivation.steps))
+
+
+def _proofs() -> list[Statement]:
+    """Return every statement, proved now. Stops, naming what to install, without SymPy."""
+    from raycert.oracle.witness.testimony import Missing, load
+
+    try:
+        load("symbols")
+    except Missing as missing:
+        stop(str(missing))
+    from rich.console import Console
+
+    from raycert.oracle.witness.proofs import derivation
+
+    with Console(stderr=True).status("proving with SymPy"):
+        return derivation()
+
+
+def _write(file: str, derivation: Derivation, options: dict[str, Any]) -> None:
     """Ask the implementations, and write the page."""
     import shlex
 
-    from raycert.cases.corpus import write_whole
     from raycert.oracle.commands.options import aim
-    from raycert.oracle.explain.casepage import case_page
-    from raycert.oracle.explain.one_case import ask
+    from raycert.oracle.explain.casepage import ask, case_page
 
     row, fmt = derivation.row, derivation.format
     words = options["targets"] or ("reference",)
     aims = [(word, aim(tuple(shlex.split(word)))) for word in words]
     answers = [ask(word, target, row, fmt.name) for word, target in aims]
-    text = case_page(derivation, answers, _repeat(derivation, options, id))
-    if file == "-":
-        click.echo(text.encode(), nl=False)
-    else:
-        write_whole(Path(file), text.encode())
+    text = case_page(derivation, answers, _repeat(derivation, options))
+    write_text(file, text)
+    if file != "-":
         click.echo(f"written {file}", err=True)
 
 
-def _repeat(derivation: Derivation, options: dict[str, Any], id: str | None) -> str:
+def _repeat(derivation: Derivation, options: dict[str, Any]) -> str:
     """Return the command line that makes the page again, from anywhere if the case is no row."""
     import json
     import shlex
 
     from raycert.cases.forms import write_ray, write_solid
 
-    row, words = derivation.row, ["raycert", "explain"]
+    row, id, words = derivation.row, options["id"], ["raycert", "explain"]
     case = {"solid": write_solid(row.solid), "ray": write_ray(row.ray)}
     words += [id] if id else ["--json", "-"]
     words += [word for target in options["targets"] for word in ("--with", target)]
@@ -146,74 +169,31 @@ def _repeat(derivation: Derivation, options: dict[str, Any], id: str | None) -> 
     return line if id else f"{line} <<< {shlex.quote(json.dumps(case))}"
 
 
-def _derivation(id: str | None, options: dict[str, Any]) -> Derivation:
-    """Return the derivation of the case that the words name."""
-    from dataclasses import replace
-
-    from raycert.cases.formats import FORMATS
-    from raycert.oracle.explain.derive import derive, given
-    from raycert.oracle.explain.form import Step
-
-    fmt = FORMATS[options["precision"]]
-    if id:
-        return _from_golden(id, options)
-    rounded: list[Fact] = []
-    if options["file"]:
-        case = given(*from_json(options["file"].read(), fmt, "--json"))
-    else:
-        case = given(*from_words(options, fmt, rounded))
-    derivation = derive(case, fmt)
-    if not rounded:
-        return derivation
-    taken = Step(f"Taken as {fmt.name} numbers", tuple(rounded))
-    return replace(derivation, steps=(taken, *derivation.steps))
-
-
-def _show(
-    derivation: Derivation | None, statements: list[Statement] | None, form: str, full: bool
-) -> None:
-    """Print the proofs, then the case; exit 1 where a proof failed."""
+def _print(derivation: Derivation | None, statements: list[Statement] | None, full: bool) -> None:
+    """Print the proofs, then the case."""
     from rich.console import Console
 
+    from raycert.oracle.explain.console import show, show_proofs
+
     console = Console()
-    if form == "json":
-        _show_json(derivation, statements)
-    else:
-        if statements is not None:
-            from raycert.oracle.commands.symbolic import show_proofs
-
-            show_proofs(statements, console)
-        if derivation is not None:
-            from raycert.oracle.explain.text import show
-
-            if statements is not None:
-                console.print()
-            show(derivation, console, full)
-    if not all(statement.proved for statement in statements or ()):
-        raise SystemExit(1)
+    if statements is not None:
+        show_proofs(statements, console)
+    if statements is not None and derivation is not None:
+        console.print()
+    if derivation is not None:
+        show(derivation, console, full)
 
 
-def _show_json(derivation: Derivation | None, statements: list[Statement] | None) -> None:
+def _print_json(derivation: Derivation | None, statements: list[Statement] | None) -> None:
     import json
+
+    from raycert.oracle.explain.derive import to_json
 
     form: dict[str, Any] = {}
     if statements is not None:
-        from raycert.oracle.commands.symbolic import to_json as proofs_to_json
-
-        form["symbolic"] = proofs_to_json(statements)
+        form["symbolic"] = [
+            {"title": s.title, "text": s.text, "proved": s.proved} for s in statements
+        ]
     if derivation is not None:
-        from raycert.oracle.explain.derive import to_json
-
         form |= to_json(derivation)
     click.echo(json.dumps(form, indent=1))
-
-
-def _from_golden(id: str, options: dict[str, Any]) -> Derivation:
-    from raycert.oracle.explain.derive import as_given, derive
-
-    corpus = read(options["precision"], options["golden"])
-    row = find(corpus, id)
-    derivation = derive(as_given(row), corpus.format, row.family)
-    if derivation.row != row:
-        click.echo(f"{id}: the file holds another answer; see: raycert golden check", err=True)
-    return derivation

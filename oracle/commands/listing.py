@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,7 +34,7 @@ Examples:
   raycert list --count tier --family tilt
 
 \b
-Table rows are the seed's:
+Rows of the case tables (cases/README.md):
   Problem 1   along-inside along-outside miss behind from-inside through
   Problem 2   AE BE AF AH BG DE CF; of one plane A B C D
   Problem 3   neither no-1 no-2 apart meet, and a>c a=c a<c b>d ... m<n m=n m>n
@@ -216,27 +216,8 @@ def show(ids: tuple[str, ...], raw: bool, full: bool, precision: str, golden: Pa
 
         click.echo(encode_rows(rows, corpus.format), nl=False)
         return
-    _print_in_full(rows, corpus, full)
-
-
-def _print_in_full(rows: list[GoldenRow], corpus: Corpus, full: bool) -> None:
     from rich.console import Console
-    from rich.text import Text
 
-    from raycert.oracle.explain.row_lines import row_steps
-    from raycert.oracle.explain.text import case_lines, put, step_lines
+    from raycert.oracle.explain.console import show_rows
 
-    console = Console()
-    width = 10**9 if full else console.width
-
-    def lines() -> Iterator[Text]:
-        for i, row in enumerate(rows):
-            if i:
-                yield from (Text(), Text())
-            yield from case_lines(row, corpus.format, width)
-            for step in row_steps(row, corpus.format):
-                yield Text()
-                yield Text(step.heading, "bold")
-                yield from step_lines(step, width, full)
-
-    put(console, lines())
+    show_rows(rows, corpus.format, Console(), full)

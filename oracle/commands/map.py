@@ -8,26 +8,21 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.asking import from_json, from_words, shape_options, words_given
+from raycert.oracle.commands.asking import SHAPES, case_options, chosen, count_given
 from raycert.oracle.commands.options import (
     BadInput,
     aim,
     check_writable,
     counting,
-    find,
-    golden_option,
     limits,
     limits_options,
-    precision_option,
-    read,
     stop,
+    write_text,
 )
 
 if TYPE_CHECKING:
-    from raycert.cases.formats import Format
-    from raycert.oracle.map.cells import Map
-    from raycert.oracle.map.inputs import Case
-    from raycert.oracle.map.plan import Plan
+    from raycert.oracle.map.raster import Raster
+    from raycert.oracle.map.sampling import Map
 
 PICTURES, DATA = (".png", ".svg"), (".json", ".csv")
 SHOWS = ("exact", "answer", "k", "ulps", "disagreement")
@@ -70,11 +65,7 @@ Exit status: 0 done; 2 bad usage or input; 3 the target could not be run.
 
 
 @click.command(name="map", epilog=EPILOG)
-@click.argument("id", required=False)
-@shape_options
-@click.option(
-    "--json", "file", type=click.File("rb"), help="File with solid and ray; - is standard input."
-)
+@case_options
 @click.option("--x", "x", required=True, metavar="PATHS", help="What moves to the right.")
 @click.option("--y", "y", required=True, metavar="PATHS", help="What moves upward.")
 @click.option("--span", help="How far on each side.  [half of --cells in ulps, else 1]")
@@ -100,22 +91,19 @@ Exit status: 0 done; 2 bad usage or input; 3 the target could not be run.
     help="File: .png, .svg, .json or .csv (repeatable).",
 )
 @limits_options
-@precision_option
-@golden_option
 def draw_map(**options: Any) -> None:
     """Draw what surrounds a case: for each cell the exact answer, or how far a target's is right.
 
     The case is a golden row by its ID, or a solid and a ray by options, or --json, as for explain.
     Ctrl-C keeps the cells that are done: those around the case come first.
     """
-    if bool(options["id"]) + bool(options["file"]) + bool(words_given(options)) != 1:
+    if count_given(options) != 1:
         raise click.UsageError("give one case: an ID, or --json, or a solid with --ray")
     write = _writers(options["outs"])
     show = options["show"] or ("k" if options["target"] else "exact")
     if show == "exact" and options["target"]:
         raise click.UsageError("--show exact asks no --target")
-    plan = _plan(options)
-    found = _sampled(plan, show, options)
+    found = _sampled(_raster(options), show, options)
     if not found.cells:
         raise click.ClickException("interrupted before a cell was done; nothing was written")
     for path in options["outs"]:
@@ -138,7 +126,7 @@ def _writers(outs: tuple[Path, ...]) -> dict[Path, Callable[[Map, str], None]]:
 
 def _picture(path: Path) -> Callable[[Map, str], None]:
     try:
-        from raycert.oracle.plots.cells import save
+        from raycert.oracle.plots.mapping import save
     except ImportError as error:
         raise BadInput(
             f'pictures need matplotlib: pip install "raycert[plots]" ({error})'
@@ -149,54 +137,40 @@ def _picture(path: Path) -> Callable[[Map, str], None]:
 def _data(path: Path) -> Callable[[Map, str], None]:
     import json
 
-    from raycert.oracle.map.data import to_csv, to_json
+    from raycert.oracle.map.legend import to_csv, to_json
 
     if path.suffix.lower() == ".csv":
-        return lambda found, _: _put(path, to_csv(found))
-    return lambda found, _: _put(path, json.dumps(to_json(found), indent=1) + "\n")
+        return lambda found, _: write_text(path, to_csv(found))
+    return lambda found, _: write_text(path, json.dumps(to_json(found), indent=1) + "\n")
 
 
-def _put(path: Path, text: str) -> None:
-    path.write_text(text, encoding="ascii", newline="\n")
-
-
-def _case(options: dict[str, Any], fmt: Format) -> Case:
-    """Return the case that the words name."""
-    if options["id"]:
-        row = find(read(options["precision"], options["golden"]), options["id"])
-        return row.solid, row.ray
-    if options["file"]:
-        return from_json(options["file"].read(), fmt, "--json")
-    return from_words(options, fmt, [])
-
-
-def _plan(options: dict[str, Any]) -> Plan:
+def _raster(options: dict[str, Any]) -> Raster:
     from fractions import Fraction
 
     from raycert.cases.formats import FORMATS
     from raycert.cases.model import Refused
-    from raycert.oracle.map.inputs import Inputs
-    from raycert.oracle.map.plan import Plan
+    from raycert.oracle.map.raster import Inputs, Raster
 
     fmt, cells = FORMATS[options["precision"]], options["cells"]
     usual = str(cells // 2) if options["unit"] == "ulps" else "1"
-    inputs = Inputs(*_case(options, fmt), fmt)
+    case = chosen(options, [])
+    inputs = Inputs(case.solid, case.ray, fmt)
     try:
         span = Fraction(options["span"] or usual)
     except (ValueError, ZeroDivisionError):
         raise click.BadParameter("is not a number", param_hint="--span") from None
     try:
         axes = inputs.direction(options["x"]), inputs.direction(options["y"])
-        return Plan.of(inputs, axes, options["unit"], span, cells)
+        return Raster.of(inputs, axes, options["unit"], span, cells)
     except Refused as refusal:
         raise BadInput(str(refusal)) from None
 
 
-def _sampled(plan: Plan, show: Any, options: dict[str, Any]) -> Map:
+def _sampled(raster: Raster, show: Any, options: dict[str, Any]) -> Map:
     import shlex
 
     from raycert.oracle.client.dialogue import Unusable
-    from raycert.oracle.map.cells import sample
+    from raycert.oracle.map.sampling import sample
 
     target = None
     if show != "exact":
@@ -206,14 +180,12 @@ def _sampled(plan: Plan, show: Any, options: dict[str, Any]) -> Map:
             raise click.BadParameter(str(error), param_hint="--target") from None
         target = aim(words)
     try:
-        return sample(plan, show, target, limits(options), counting)
+        return sample(raster, show, target, limits(options), counting)
     except Unusable as error:
         stop(str(error))
 
 
 def _title(options: dict[str, Any]) -> str:
-    from raycert.oracle.commands.asking import SHAPES
-
     if options["id"]:
         return f"Around {options['id']}"
     shape = next((name for name in SHAPES if options[name]), None)

@@ -1,21 +1,28 @@
 """One case as an HTML page that needs nothing else: pictures, answers, derivation.
 
-What implementations said, and what a golden file says, is cleaned; the template escapes it besides.
+Each implementation is asked that case alone. What it answered, and what a golden file says, is
+cleaned; the template escapes it besides.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from raycert.cases.levels import LEVELS
-from raycert.oracle.explain.casepicture import NAME, Said, closeups, lists, wholes
+from raycert.cases.model import types
+from raycert.cases.protocol import Hello
+from raycert.cases.row import GoldenRow
+from raycert.oracle.certify.grading import Grade, grade
+from raycert.oracle.client.dialogue import Limits, Question, Target, Unusable
+from raycert.oracle.client.replay import greet, run
+from raycert.oracle.explain.casepicture import NAME, AnswerLine, closeups, lists, wholes
 from raycert.oracle.explain.casepicture import numbers as drawable
+from raycert.oracle.explain.console import case_lines
 from raycert.oracle.explain.derive import Derivation
-from raycert.oracle.explain.form import Fact, Note, Step, Table, numbers, shorten
-from raycert.oracle.explain.one_case import Asked
-from raycert.oracle.explain.text import case_lines
+from raycert.oracle.explain.wording import Fact, Note, Passage, Table, numbers, shorten
 from raycert.oracle.judge.answer import First, YesNo
 from raycert.oracle.reports.page import render
 from raycert.oracle.reports.reading import clean, number
@@ -27,7 +34,46 @@ ACCEPTED = "stable"
 """The level whose lists are drawn."""
 
 
-def case_page(derivation: Derivation, answers: Sequence[Asked], repeat: str) -> str:
+@dataclass(frozen=True, slots=True)
+class Response:
+    """What an implementation answers to one case: None as `grade` if not asked, for the `reason`.
+
+    `word` is what the person called it, `name` what it calls itself.
+    """
+
+    word: str
+    name: str
+    grade: Grade | None
+    reason: str = ""
+
+
+def ask(word: str, target: Sequence[str] | Target, row: GoldenRow, precision: str) -> Response:
+    """Return the graded answer of an implementation that is asked this case alone.
+
+    One that cannot be run, or does not take the case, is no error: the reason stands in place of
+    its answer.
+    """
+    limits = Limits()
+    try:
+        hello = greet(target, limits)
+        name = f"{hello.name} {hello.version}".strip() or word
+        if reason := _unasked(row, hello, precision):
+            return Response(word, name, None, reason)
+        ran = run(target, [Question(row.id, row.solid, row.ray)], limits)
+    except Unusable as error:
+        return Response(word, word, None, f"could not be run: {error}")
+    return Response(word, name, grade(row, ran.outcomes[row.id], ran.hello))
+
+
+def _unasked(row: GoldenRow, hello: Hello, precision: str) -> str:
+    """Return why an implementation is not asked a case; empty where it is."""
+    if hello.precision != precision:
+        return f"not asked: it computes in {hello.precision}; see: --precision {hello.precision}"
+    missing = sorted(types(row.solid) - set(hello.solids))
+    return f"not asked: it does not declare {', '.join(missing)}" if missing else ""
+
+
+def case_page(derivation: Derivation, answers: Sequence[Response], repeat: str) -> str:
     """Return the page of a case and of the answers to it; `repeat` is the command that makes it."""
     row, fmt = derivation.row, derivation.format
     names = _names([one.word for one in answers])
@@ -56,32 +102,34 @@ def case_page(derivation: Derivation, answers: Sequence[Asked], repeat: str) -> 
     )
 
 
-def _drawn(asked: Asked, name: str) -> Said:
+def _drawn(one: Response, name: str) -> AnswerLine:
     """Return an answer as it is drawn; a first hit is a list of one point."""
-    grade = asked.grade
-    if grade is None or grade.said is None:
-        return Said(name, None, "no answer")
-    match grade.said:
+    graded = one.grade
+    if graded is None or graded.said is None:
+        return AnswerLine(name, None, "no answer")
+    match graded.said:
         case First(t):
             pairs = None if t is None else drawable(((t, t),))
-            return Said(name, pairs, "no hit" if t is None else "no number", True)
+            return AnswerLine(name, pairs, "no hit" if t is None else "no number", True)
         case YesNo(hit):
-            return Said(name, None, f"hit: {str(hit).lower()}")
-    return Said(name, drawable(grade.answer), "not numbers" if grade.answer else "no interval")
+            return AnswerLine(name, None, f"hit: {str(hit).lower()}")
+    return AnswerLine(
+        name, drawable(graded.answer), "not numbers" if graded.answer else "no interval"
+    )
 
 
-def _answer(asked: Asked, name: str, derivation: Derivation) -> Json:
+def _answer(one: Response, name: str, derivation: Derivation) -> Json:
     """Return an answer as a row of the table: its words, its errors, the levels it holds."""
-    grade = asked.grade
+    graded = one.grade
     form: Json = {
         "label": clean(name, 30),
-        "name": clean(asked.name, 60) if asked.name != asked.word else "",
-        "reason": clean(asked.reason),
+        "name": clean(one.name, 60) if one.name != one.word else "",
+        "reason": clean(one.reason),
         "levels": [],
     }
-    if grade is None:
+    if graded is None:
         return form | {"said": "", "errors": []}
-    match grade.said:
+    match graded.said:
         case None:
             said = "no answer"
         case First(t):
@@ -89,11 +137,12 @@ def _answer(asked: Asked, name: str, derivation: Derivation) -> Json:
         case YesNo(hit):
             said = f"hit: {str(hit).lower()}"
         case _:
-            said = numbers(grade.answer or (), derivation.format)
-    errors = [number(x) for x in (grade.ulps, grade.strict, grade.squared)]
-    failed = {**grade.faults, **grade.outside}
+            said = numbers(graded.answer or (), derivation.format)
+    errors = [number(x) for x in (graded.ulps, graded.strict, graded.squared)]
+    failed = {**graded.faults, **graded.outside}
     levels = [
-        ("failed" if level in failed else "passed", level in grade.row.decisive) for level in LEVELS
+        ("failed" if level in failed else "passed", level in graded.row.decisive)
+        for level in LEVELS
     ]
     first = next((f"{level}: {failed[level]}" for level in LEVELS if level in failed), "")
     return form | {
@@ -117,8 +166,8 @@ def _tail(word: str) -> str:
     return re.split(r"[:/]", word.strip().rstrip("/"))[-1]
 
 
-def _step(step: Step) -> Json:
-    return {"heading": clean(step.heading), "lines": [_line(line) for line in step.lines]}
+def _step(passage: Passage) -> Json:
+    return {"heading": clean(passage.heading), "lines": [_line(line) for line in passage.lines]}
 
 
 def _line(line: Fact | Table | Note) -> Json:

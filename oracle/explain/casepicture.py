@@ -58,7 +58,7 @@ Drawn = list[tuple[str, str]]
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class AnswerLine:
     """An answer to draw: a name, and its list, or what is said in place of one."""
 
     name: str
@@ -95,7 +95,7 @@ def _end(end: End) -> Fraction | float:
     return float("inf") if end.digits == "inf" else Fraction(end.digits)
 
 
-def wholes(row: GoldenRow, all_lists: CaseLists, said: Sequence[Said]) -> Drawn:
+def wholes(row: GoldenRow, all_lists: CaseLists, said: Sequence[AnswerLine]) -> Drawn:
     """Return the views of a case; under the first of them are the intervals over t."""
     ends = all_lists.finite(all_lists.exact)
     found = views(row.solid, row.ray, ends)
@@ -103,7 +103,7 @@ def wholes(row: GoldenRow, all_lists: CaseLists, said: Sequence[Said]) -> Drawn:
     return drawings + [_alone(view, all_lists) for view in found[1:]]
 
 
-def _lined(view: View | None, all_lists: CaseLists, said: Sequence[Said]) -> tuple[str, str]:
+def _lined(view: View | None, all_lists: CaseLists, said: Sequence[AnswerLine]) -> tuple[str, str]:
     """Return a view over the intervals, both on one scale of t; without one the intervals."""
     still = view is not None and view.still
     axis = whole(all_lists) if view is None or still else axis_of(view.section)
@@ -161,7 +161,9 @@ def _alone(view: View, all_lists: CaseLists) -> tuple[str, str]:
     return caption, drawing(TALL + 20, caption, *parts)
 
 
-def closeups(row: GoldenRow, all_lists: CaseLists, said: Sequence[Said], fmt: Format) -> Drawn:
+def closeups(
+    row: GoldenRow, all_lists: CaseLists, said: Sequence[AnswerLine], fmt: Format
+) -> Drawn:
     """Return a close look at each exact end but 0 and infinity, up to `ENDS` of them.
 
     An end that is on the one before is not looked at again.
@@ -185,7 +187,7 @@ def _close(
     end: End,
     name: str,
     all_lists: CaseLists,
-    answers: tuple[Sequence[Said], Sequence[Fraction | None]],
+    answers: tuple[Sequence[AnswerLine], Sequence[Fraction | None]],
     fmt: Format,
 ) -> tuple[str, str]:
     said, offs = answers
@@ -206,7 +208,7 @@ def _close(
 
 
 def _off(
-    one: Said, end: End, place: tuple[int, int], all_lists: CaseLists, fmt: Format
+    one: AnswerLine, end: End, place: tuple[int, int], all_lists: CaseLists, fmt: Format
 ) -> Fraction | None:
     """Return how far an answer's end is from the number at an exact one, in ulps.
 

@@ -1,8 +1,8 @@
-"""The derivation of one leaf, in the seed's own steps.
+"""The derivation of one leaf, problem by problem as in cases/README.md.
 
 The vectors and products are computed here, in fractions straight from the inputs; the rows taken
 are those of `exact.trace`, and so are the signs that decided them. Nothing is normalised: what
-the seed divides by |w| or |w|^2 is shown before that division, which changes no sign.
+the problems divide by |w| or |w|^2 is shown before that division, which changes no sign.
 """
 
 from __future__ import annotations
@@ -20,16 +20,17 @@ from raycert.cases.model import (
     Sphere,
     Vector,
 )
-from raycert.cases.table import HALF_SPACE, PROBLEM_1, PROBLEM_2, PROBLEM_3
+from raycert.cases.table import HALF_SPACE, PROBLEM_1, PROBLEM_2, PROBLEM_3, Row
+from raycert.cases.vectors import cross, dot, minus
 from raycert.oracle.exact.grid import Grid
 from raycert.oracle.exact.leaf import Plane, Quadric, ball, caps, half_space, plane_signs, wall
 from raycert.oracle.exact.surd import sign
 from raycert.oracle.exact.trace import Decision, solve_leaf
-from raycert.oracle.explain.form import (
+from raycert.oracle.explain.wording import (
     Exact,
     Fact,
     Note,
-    Step,
+    Passage,
     listed,
     number,
     row_table,
@@ -48,23 +49,8 @@ def exact(x: Vector) -> Exact:
     return (Fraction(x[0]), Fraction(x[1]), Fraction(x[2]))
 
 
-def minus(a: Exact, b: Exact) -> Exact:
-    """Return a - b."""
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def dot(a: Exact, b: Exact) -> Fraction:
-    """Return a . b."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a: Exact, b: Exact) -> Exact:
-    """Return a x b."""
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def leaf_steps(leaf: Leaf, ray: Ray) -> Iterator[Step]:
-    """Yield the steps of one leaf: its vectors, then the problems of the seed that it takes."""
+def leaf_steps(leaf: Leaf, ray: Ray) -> Iterator[Passage]:
+    """Yield the steps of one leaf: its vectors, then the problems that it takes."""
     grid, decisions = Grid.of(leaf, ray), list[Decision]()
     solve_leaf(leaf, grid, "", decisions)
     match leaf:
@@ -85,13 +71,13 @@ def leaf_steps(leaf: Leaf, ray: Ray) -> Iterator[Step]:
             yield _both(leaf, grid, decisions)
 
 
-def _axis(leaf: Slab | InfiniteCylinder | Cylinder, ray: Ray) -> Step:
-    """Return the seed's vectors; a slab needs only w."""
+def _axis(leaf: Slab | InfiniteCylinder | Cylinder, ray: Ray) -> Passage:
+    """Return the vectors of an axis; a slab needs only w."""
     p, u, v = exact(leaf.p), exact(ray.origin), exact(ray.direction)
     w = minus(exact(leaf.q), p)
     square = scalar("|w|^2", dot(w, w), sign=False)
     if isinstance(leaf, Slab):
-        return Step("Vectors", (vector("w = q - p", w), square, *_remarks(ray)))
+        return Passage("Vectors", (vector("w = q - p", w), square, *_remarks(ray)))
     y = minus(u, p)
     across = cross(v, w)
     lines = (
@@ -103,7 +89,7 @@ def _axis(leaf: Slab | InfiniteCylinder | Cylinder, ray: Ray) -> Step:
     )
     parallel = not any(across) and any(v)
     aside = (Note("v x w = 0: the ray is parallel to the axis."),) if parallel else ()
-    return Step("Vectors", (*lines, *_remarks(ray), *aside))
+    return Passage("Vectors", (*lines, *_remarks(ray), *aside))
 
 
 def _remarks(ray: Ray) -> tuple[Note, ...]:
@@ -112,7 +98,7 @@ def _remarks(ray: Ray) -> tuple[Note, ...]:
     return (Note("v = 0: the ray stays at its origin, inside for every t or for none."),)
 
 
-def _wall(leaf: InfiniteCylinder | Cylinder, ray: Ray, grid: Grid, decision: Decision) -> Step:
+def _wall(leaf: InfiniteCylinder | Cylinder, ray: Ray, grid: Grid, decision: Decision) -> Passage:
     p, u, v = exact(leaf.p), exact(ray.origin), exact(ray.direction)
     w = minus(exact(leaf.q), p)
     y, square, r = minus(u, p), dot(w, w), Fraction(leaf.radius)
@@ -130,7 +116,7 @@ def _wall(leaf: InfiniteCylinder | Cylinder, ray: Ray, grid: Grid, decision: Dec
     return _curved(heading, facts, wall(leaf, grid), grid, decision, CURVED, "vbar . ybar")
 
 
-def _sphere(leaf: Sphere, ray: Ray, grid: Grid, decision: Decision) -> Step:
+def _sphere(leaf: Sphere, ray: Ray, grid: Grid, decision: Decision) -> Passage:
     v, r = exact(ray.direction), Fraction(leaf.radius)
     y = minus(exact(ray.origin), exact(leaf.center))
     turned = cross(v, y)
@@ -155,7 +141,7 @@ def _curved(
     decision: Decision,
     names: dict[str, str],
     product: str,
-) -> Step:
+) -> Passage:
     """Return the table of Problem 1; t1 and t2 are defined where nothing divides by zero."""
     signs = {"vv": sign(face.a), "inside": -sign(face.c), "disc": sign(face.disc)}
     ends: tuple[Fact, ...] = ()
@@ -167,17 +153,17 @@ def _curved(
         if t1 == t2:
             ends = (number("t1 = t2", t1, note="a double root: the ray is tangent"),)
     table = row_table(PROBLEM_1, names, signs | dict(decision.signs), decision.row)
-    emitted = _emits(decision, {"{(t1, t2)}": "(a, b) = (t1, t2)", "{(0, t2)}": "(a, b) = (0, t2)"})
-    return Step(heading, (*facts, *ends, table, emitted))
+    known = ("{(t1, t2)}", "{(0, t2)}", "{(0, inf)}")
+    pairs = decision.row.pairs
+    pair = f"(a, b) = {pairs.strip('{}')}" if pairs in known else "no pair"
+    return Passage(heading, (*facts, *ends, table, _emits(decision.row, pair)))
 
 
-def _emits(decision: Decision, names: dict[str, str]) -> Note:
-    row = decision.row
-    pair = names.get(row.pairs, "(a, b) = (0, inf)" if row.pairs == "{(0, inf)}" else "no pair")
-    return Note(f"Row {row.name}, seed part {row.parts}: {pair}")
+def _emits(row: Row, pair: str) -> Note:
+    return Note(f"Row {row.name}, Problem {row.parts}: {pair}")
 
 
-def _slab(leaf: Slab | Cylinder, ray: Ray, grid: Grid, decision: Decision) -> Step:
+def _slab(leaf: Slab | Cylinder, ray: Ray, grid: Grid, decision: Decision) -> Passage:
     p, q, u, v = (exact(x) for x in (leaf.p, leaf.q, ray.origin, ray.direction))
     n = minus(p, q)
     faces = caps(leaf, grid)
@@ -190,14 +176,14 @@ def _slab(leaf: Slab | Cylinder, ray: Ray, grid: Grid, decision: Decision) -> St
     )
     signs = plane_signs(*faces) | dict(decision.signs)
     table = row_table(PROBLEM_2, FLAT, signs, decision.row)
-    emitted = _slab_pair(decision)
-    return Step("Problem 2, the slab between the planes through p and q", (*facts, table, emitted))
+    return Passage(
+        "Problem 2, the slab between the planes through p and q",
+        (*facts, table, _slab_pair(decision.row)),
+    )
 
 
-def _slab_pair(decision: Decision) -> Note:
-    row = decision.row
-    pair = f"(c, d) = {row.pairs.strip('{}')}" if row.pairs != "{}" else "no pair"
-    return Note(f"Row {row.name}, seed part {row.parts}: {pair}")
+def _slab_pair(row: Row) -> Note:
+    return _emits(row, f"(c, d) = {row.pairs.strip('{}')}" if row.pairs != "{}" else "no pair")
 
 
 def _crossings(planes: tuple[tuple[str, str, Plane], ...], grid: Grid) -> Iterator[Fact | Note]:
@@ -208,7 +194,7 @@ def _crossings(planes: tuple[tuple[str, str, Plane], ...], grid: Grid) -> Iterat
         yield number(name, face.crossing(grid), note=f"-{from_plane}.n / v.n")
 
 
-def _half_space(leaf: HalfSpace, ray: Ray, grid: Grid, decision: Decision) -> Step:
+def _half_space(leaf: HalfSpace, ray: Ray, grid: Grid, decision: Decision) -> Passage:
     n, v = exact(leaf.normal), exact(ray.direction)
     away = minus(exact(ray.origin), exact(leaf.point))
     face = half_space(leaf, grid)
@@ -222,11 +208,12 @@ def _half_space(leaf: HalfSpace, ray: Ray, grid: Grid, decision: Decision) -> St
     )
     signs = {"up": sign(face.c), "vn": sign(face.b)} | dict(decision.signs)
     table = row_table(HALF_SPACE, FLAT, signs, decision.row)
-    emitted = _slab_pair(decision)
-    return Step("Problem 2 (c), one plane: (x - p) . n <= 0", (*facts, table, emitted))
+    return Passage(
+        "Problem 2 (c), one plane: (x - p) . n <= 0", (*facts, table, _slab_pair(decision.row))
+    )
 
 
-def _both(leaf: Cylinder, grid: Grid, decisions: list[Decision]) -> Step:
+def _both(leaf: Cylinder, grid: Grid, decisions: list[Decision]) -> Passage:
     """Problem 3: a ? c, b ? d, m ? n."""
     aside = list[Decision]()
     one = solve_leaf(InfiniteCylinder(leaf.p, leaf.q, leaf.radius), grid, "", aside)
@@ -244,5 +231,4 @@ def _both(leaf: Cylinder, grid: Grid, decisions: list[Decision]) -> Step:
         ]
     table = row_table(PROBLEM_3, BOTH, dict(last.signs), last.row)
     pair = {"meet": "(m, n)", "apart": "no pair, as m > n"}.get(last.row.name, "no pair")
-    end = Note(f"Row {last.row.name}, seed part {last.row.parts}: {pair}")
-    return Step("Problem 3, in both", (*lines, table, end))
+    return Passage("Problem 3, in both", (*lines, table, _emits(last.row, pair)))

@@ -125,7 +125,7 @@ class Explanation:
         """Return the derivation as `raycert explain` prints it."""
         from rich.console import Console
 
-        from raycert.oracle.explain.text import show
+        from raycert.oracle.explain.console import show
 
         console = Console(width=100, color_system=None, force_terminal=False)
         with console.capture() as capture:

@@ -1,13 +1,22 @@
-"""What is shown of a map: classes in order, curves between forms, the words for them."""
+"""What is said of a map: classes in order, curves between forms, words, and all of it as data.
+
+The data are JSON with everything, or CSV with a line a cell; numbers as hex floats, exactly.
+"""
 
 from __future__ import annotations
 
+import csv
+import io
 from collections import Counter
 from collections.abc import Collection, Iterator
 from math import inf, isinf
 from textwrap import wrap
+from typing import Any
 
-from raycert.oracle.map.cells import (
+from raycert.cases.protocol import Reply
+from raycert.oracle.client.dialogue import silence
+from raycert.oracle.map.raster import At
+from raycert.oracle.map.sampling import (
     BEYOND,
     EXACT,
     FAITHFUL,
@@ -19,7 +28,6 @@ from raycert.oracle.map.cells import (
     Cell,
     Map,
 )
-from raycert.oracle.map.plan import At
 from raycert.oracle.map.topology import KINDS, Kind, between
 
 ORDER = (
@@ -36,6 +44,9 @@ ORDER = (
 Corner = tuple[int, int]
 """A corner of cells: (i, j) is the lower left one of the cell (i, j)."""
 Edge = tuple[Corner, Corner]
+Json = dict[str, Any]
+VERSION = 1
+"""Of the JSON form."""
 
 
 def class_of(cell: Cell) -> str:
@@ -148,7 +159,7 @@ def extremes(found: Map) -> tuple[float, float] | None:
 
 def summary(found: Map) -> Iterator[str]:
     """Yield lines that say what was found."""
-    total, cells = len(found.plan.places), found.cells.values()
+    total, cells = len(found.raster.places), found.cells.values()
     yield f"{len(cells)} of {total} cells" + ("" if found.whole else "; interrupted")
     for name, count in classes(found):
         yield f"  {count:6}  {name}"
@@ -186,12 +197,95 @@ def subtitle(found: Map) -> str:
 
 def axis_label(found: Map, name: str) -> str:
     """Return what an axis says: the inputs it moves, their values in the middle, the unit."""
-    plan = found.plan
-    direction = plan.x if name == "x" else plan.y
-    unit = {"ulps": "ulps from", "units": "units from", "relative": "share of"}[plan.unit]
+    raster = found.raster
+    direction = raster.x if name == "x" else raster.y
+    unit = {"ulps": "ulps from", "units": "units from", "relative": "share of"}[raster.unit]
     if len(direction.terms) == 1 and direction.terms[0][1] == 1:
         path = direction.terms[0][0]
-        return f"{path}, {unit} {plan.inputs[path]!r}"
-    values = ", ".join(f"{path} {plan.inputs[path]!r}" for path, _ in direction.terms)
+        return f"{path}, {unit} {raster.inputs[path]!r}"
+    values = ", ".join(f"{path} {raster.inputs[path]!r}" for path, _ in direction.terms)
     text = f"{direction}\n{unit} {values}"
     return "\n".join(part for line in text.split("\n") for part in wrap(line, 78))
+
+
+def to_json(found: Map) -> Json:
+    """Return the map as a JSON object.
+
+    `cells` has one object a cell, in rows from the lower left; `topology` there is a place in
+    `topologies`. An infinite k or ulps is the text `inf`.
+    """
+    forms = list(dict.fromkeys(c.topology for _, c in _rows(found) if c.topology is not None))
+    number = {form: i for i, form in enumerate(forms)}
+    raster, hello = found.raster, found.hello
+    return {
+        "map": VERSION,
+        "case": raster.inputs.form,
+        "precision": raster.inputs.format.name,
+        "show": found.show,
+        "target": hello.name if hello else None,
+        "unit": raster.unit,
+        "step": float(raster.step),
+        "half": raster.half,
+        "axes": {name: dict(_weights(found, name)) for name in ("x", "y")},
+        "whole": found.whole,
+        "topologies": [
+            {"label": form.label, "pairs": form.pairs, "kinds": list(form.kinds)} for form in forms
+        ],
+        "cells": [_cell(found, at, cell, number) for at, cell in _rows(found)],
+    }
+
+
+def _rows(found: Map) -> list[tuple[At, Cell]]:
+    return sorted(found.cells.items(), key=lambda item: (item[0][1], item[0][0]))
+
+
+def _weights(found: Map, name: str) -> list[tuple[str, float]]:
+    direction = found.raster.x if name == "x" else found.raster.y
+    return [(path, float(weight)) for path, weight in direction.terms]
+
+
+def _cell(found: Map, at: At, cell: Cell, number: dict[Any, int]) -> Json:
+    values = {path: x.hex() for path, x in found.raster.values(at).items()}
+    form: Json = {"x": at[0], "y": at[1], "inputs": values}
+    if cell.topology is None:
+        return form | {"refused": cell.refused}
+    form |= {"topology": number[cell.topology], "expected": _pairs(cell.expected)}
+    if cell.outcome is not None:
+        form |= {"answer": _answer(cell)}
+    if cell.value is not None:
+        form["value"] = "inf" if isinf(cell.value) else cell.value
+    elif cell.outcome is not None:
+        form["class"] = class_of(cell)
+    return form
+
+
+def _pairs(pairs: Any) -> list[list[str]]:
+    return [[float(x).hex() for x in pair] for pair in pairs]
+
+
+def _answer(cell: Cell) -> Any:
+    """Return what was answered: pairs, a first hit, a yes or no, or why nothing."""
+    outcome = cell.outcome
+    if outcome is None or silence(outcome):
+        return {"failure": cell.says}
+    assert isinstance(outcome, Reply)
+    if outcome.intervals is not None:
+        return {"intervals": _pairs(outcome.intervals)}
+    if outcome.hit is not None:
+        return {"hit": outcome.hit}
+    return {"first": None if outcome.first is None else outcome.first.hex()}
+
+
+def to_csv(found: Map) -> str:
+    """Return the map as CSV: places, moved inputs, the exact form, the class or the number."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    paths = found.raster.paths
+    writer.writerow(("x", "y", *paths, "pairs", "topology", "kinds", found.show, "refused"))
+    for at, cell in _rows(found):
+        values, form = found.raster.values(at), cell.topology
+        shown = class_of(cell) if cell.value is None else f"{cell.value:.17g}"
+        exact = (form.pairs, form.label, " + ".join(form.kinds)) if form else ("", "", "")
+        inputs = (values[path].hex() for path in paths)
+        writer.writerow((*at, *inputs, *exact, "" if cell.refused else shown, cell.refused))
+    return text.getvalue()

@@ -9,35 +9,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import Literal, get_args
 
-from raycert.cases.formats import Format
 from raycert.cases.model import Tree, leaves
+from raycert.cases.numbers import Probe
 from raycert.oracle.exact.faces import Place, place
-from raycert.oracle.exact.intervals import expected
 from raycert.oracle.exact.trace import Answer, trace
-from raycert.oracle.map.inputs import Case
 
 Kind = Literal["double root", "rim", "coincident faces", "start on a face", "parallel to a face"]
-KINDS: tuple[Kind, ...] = (
-    "double root",
-    "rim",
-    "coincident faces",
-    "start on a face",
-    "parallel to a face",
-)
+KINDS: tuple[Kind, ...] = get_args(Kind)
 DECIDED: dict[str, Kind] = {
     "disc": "double root",
-    "inside": "start on a face",
-    "t1": "start on a face",
-    "t2": "start on a face",
-    "up": "start on a face",
-    "uq": "start on a face",
-    "vv": "parallel to a face",
-    "vn": "parallel to a face",
-    "a-c": "rim",
-    "b-d": "rim",
-    "m-n": "rim",
+    **dict.fromkeys(("inside", "t1", "t2", "up", "uq"), "start on a face"),
+    **dict.fromkeys(("vv", "vn"), "parallel to a face"),
+    **dict.fromkeys(("a-c", "b-d", "m-n"), "rim"),
 }
 """What is met where the sign of a quantity of the case table changes."""
 Ends = tuple[Place, Place]
@@ -65,9 +50,8 @@ class Topology:
     @property
     def kinds(self) -> tuple[Kind, ...]:
         """Return which degeneracies the case lies on exactly."""
-        every = [place for pair in self.ends for place in pair]
         found: set[Kind] = set()
-        for end in every:
+        for end in (end for pair in self.ends for end in pair):
             own = [face for face in end.faces if face != "start"]
             if end.kind == "start":
                 found |= {"start on a face"} if own else set()
@@ -101,14 +85,14 @@ def _spelled(pair: Ends) -> str:
     return f"{enter} .. {leave}"
 
 
-def topology(case: Case) -> tuple[Topology, Answer]:
-    """Return the form of a case's exact answer, and the answer."""
-    solid, ray = case
+def topology(probe: Probe) -> tuple[Topology, Answer]:
+    """Return the form of a probe's exact answer, and the answer."""
+    solid, ray = probe
     answer = trace(solid, ray)
     ends = tuple((place(a, solid, ray), place(b, solid, ray)) for a, b in answer.intervals)
     touches = tuple(a == b for a, b in answer.intervals)
     if isinstance(solid, Tree):
-        parts = tuple(topology((leaf, ray))[0] for _, leaf in leaves(solid))
+        parts = tuple(topology(Probe(leaf, ray))[0] for _, leaf in leaves(solid))
         return Topology((), ends, touches, parts=parts), answer
     signs = tuple((name, sign) for d in answer.decisions for name, sign in d.signs)
     return Topology(answer.rows, ends, touches, signs), answer
@@ -143,14 +127,5 @@ def _of_leaf(one: Topology, other: Topology) -> Kind:
                     return "start on a face"
                 return "parallel to a face" if "end" in (a.kind, b.kind) else "rim"
     known = dict(other.signs)
-    kinds = [DECIDED[name] for name, sign in one.signs if _changed(name, sign, known)]
-    return kinds[0] if kinds else "rim"
-
-
-def _changed(name: str, sign: int, known: dict[str, int]) -> bool:
-    return name in DECIDED and known.get(name, sign) != sign
-
-
-def rounded(answer: Answer, fmt: Format) -> tuple[tuple[float, float], ...]:
-    """Return the expected list of an exact answer."""
-    return expected(answer.intervals, fmt)[1]
+    changed = (name for name, sign in one.signs if known.get(name, sign) != sign)
+    return next((DECIDED[name] for name in changed if name in DECIDED), "rim")

@@ -8,8 +8,6 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from raycert.cases.model import Cylinder, InfiniteCylinder, Ray
-from raycert.oracle.map.cells import EXACT, Cell, Map, sample
-from raycert.oracle.map.inputs import Inputs
 from raycert.oracle.map.legend import (
     axis_label,
     classes,
@@ -21,7 +19,8 @@ from raycert.oracle.map.legend import (
     summary,
     thin,
 )
-from raycert.oracle.map.plan import Plan, Unit
+from raycert.oracle.map.raster import Inputs, Raster, Unit
+from raycert.oracle.map.sampling import EXACT, Cell, Map, sample
 
 ROD = Cylinder((0, 0, 0), (0, 0, 2), 1)
 PLACES = st.tuples(st.integers(0, 5), st.integers(0, 5))
@@ -30,7 +29,7 @@ PLACES = st.tuples(st.integers(0, 5), st.integers(0, 5))
 def made(ray: Ray, x: str, y: str, unit: Unit = "ulps", span: int = 4, rod: object = ROD) -> Map:
     inputs = Inputs(rod, ray)  # type: ignore[arg-type]
     axes = inputs.direction(x), inputs.direction(y)
-    return sample(Plan.of(inputs, axes, unit, Fraction(span), 8), "exact")
+    return sample(Raster.of(inputs, axes, unit, Fraction(span), 8), "exact")
 
 
 TANGENT = made(Ray((-3, 1, 1), (1, 0, 0)), "ray.origin[1]", "solid.radius")
@@ -50,7 +49,7 @@ def test_failures_and_no_case_come_last() -> None:
         (2, 0): Cell(says="crash: exit 4"),
         (3, 0): Cell(says=EXACT),
     }
-    assert classes(Map(TANGENT.plan, "disagreement", None, cells)) == [
+    assert classes(Map(TANGENT.raster, "disagreement", None, cells)) == [
         (EXACT, 1),
         ("no answer: crash", 2),
         ("no valid case", 1),
@@ -108,7 +107,7 @@ def test_a_summary_counts() -> None:
     assert "81 of 81 cells" in said
     assert "36  no pair: miss AE no-1" in said
     assert "double root, through 9 cells, between 0 pairs of cells" in said
-    part = Map(TANGENT.plan, "exact", None, {(0, 0): TANGENT.cells[0, 0]})
+    part = Map(TANGENT.raster, "exact", None, {(0, 0): TANGENT.cells[0, 0]})
     assert next(iter(summary(part))) == "1 of 81 cells; interrupted"
     assert "interrupted, 1 cells" in subtitle(part)
 

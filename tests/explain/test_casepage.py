@@ -15,10 +15,9 @@ from raycert.cases.protocol import Hello, Reply
 from raycert.cases.row import GoldenRow
 from raycert.cases.vectors import dot
 from raycert.oracle.certify.grading import grade
-from raycert.oracle.explain.casepage import case_page
-from raycert.oracle.explain.casepicture import Said, closeups, lists, numbers, wholes
+from raycert.oracle.explain.casepage import Response, case_page
+from raycert.oracle.explain.casepicture import AnswerLine, closeups, lists, numbers, wholes
 from raycert.oracle.explain.derive import Derivation, as_given, derive, given
-from raycert.oracle.explain.one_case import Asked
 from raycert.oracle.reports.section import views
 from shared.browser import probed
 from shared.corpus import golden
@@ -33,11 +32,11 @@ def derived(solid: Solid = CAN, ray: Ray = RAY) -> Derivation:
     return derive(given(solid, ray), BINARY64)
 
 
-def asked(row: GoldenRow, outcome: made_up.Outcome, hello: Hello = HELLO) -> Asked:
-    return Asked("my.code:trace", hello.name, grade(row, outcome, hello))
+def asked(row: GoldenRow, outcome: made_up.Outcome, hello: Hello = HELLO) -> Response:
+    return Response("my.code:trace", hello.name, grade(row, outcome, hello))
 
 
-def drawings(derivation: Derivation, *said: Said) -> tuple[str, str]:
+def drawings(derivation: Derivation, *said: AnswerLine) -> tuple[str, str]:
     """Return the whole ones and the close ones, as text."""
     row = derivation.row
     exact = lists(row, row.accept["stable"])
@@ -60,7 +59,7 @@ def test_the_page_has_the_derivation_with_the_taken_rows_lit() -> None:
 def test_a_cylinder_has_a_view_along_and_one_across() -> None:
     along, across = views(CAN, RAY, ENDS)
     axis = (0.0, 0.0, 1.0)
-    assert abs(dot(across.section.ahead, axis)) < 1e-15
+    assert abs(dot(across.section.along, axis)) < 1e-15
     assert abs(dot(across.section.plane.up, axis)) < 1e-15
     assert abs(dot(along.section.plane.up, axis)) > 0.9
     sizes = [b - a for _, a, b in across.section.filled()]
@@ -113,12 +112,12 @@ def test_a_ray_a_long_way_off_looks_the_same_across() -> None:
 def test_each_end_has_a_close_look_at_which_an_ulp_is_seen() -> None:
     derivation = derived()
     [(enter, leave)] = derivation.row.expected
-    said = Said("off", numbers(((enter - 2**-51, leave + 2**-40),)))
+    said = AnswerLine("off", numbers(((enter - 2**-51, leave + 2**-40),)))
     _, close = drawings(derivation, said)
     assert close.count("<svg") == 2
     assert close.count('class="unit"') >= 10
     assert "ulps \u2192" in close
-    far = Said("far", numbers(((enter, 1e300),)))
+    far = AnswerLine("far", numbers(((enter, 1e300),)))
     assert "end at +1e300 ulps \u2192" in drawings(derivation, far)[1]
 
 
@@ -128,7 +127,7 @@ def test_a_planted_ulp_is_seen_at_its_place() -> None:
     [(enter, leave)] = derivation.row.expected
 
     def begins(steps: int) -> float:
-        said = Said("off", numbers(((enter + steps * 2**-51, leave),)))
+        said = AnswerLine("off", numbers(((enter + steps * 2**-51, leave),)))
         first = drawings(derivation, said)[1].partition("</svg>")[0]
         [x] = re.findall(r'<rect x="([\d.]+)"[^>]*class="said"', first)
         return float(x)
@@ -156,7 +155,7 @@ def test_any_answer_is_drawn(pairs: tuple[tuple[float, float], ...]) -> None:
     derivation = derived()
     one = asked(derivation.row, Reply("", intervals=pairs), Hello(name="odd"))
     assert "<bdi>trace</bdi>" in case_page(derivation, [one], "again")
-    drawn = "".join(drawings(derivation, Said("odd", numbers(pairs))))
+    drawn = "".join(drawings(derivation, AnswerLine("odd", numbers(pairs))))
     assert not re.search(r'="-?(nan|inf)"', drawn)
 
 
@@ -169,7 +168,7 @@ def test_every_tier_and_type_of_the_corpus_has_a_page() -> None:
         assert derivation.row.id in case_page(derivation, [answer], "again")
 
 
-def sorts(row: GoldenRow) -> list[Asked]:
+def sorts(row: GoldenRow) -> list[Response]:
     """Return answers of every sort, with hostile words."""
     outcomes = [made_up.hostile(row, n) for n in range(8)]
     first, yes = Hello(name="f", answers="first"), Hello(name="a", answers="any")
@@ -178,7 +177,7 @@ def sorts(row: GoldenRow) -> list[Asked]:
         asked(row, Reply("", first=2.0), first),
         asked(row, Reply("", first=None), first),
         asked(row, Reply("", hit=True), yes),
-        Asked("none", "none", None, f"could not be run: {made_up.HOSTILE}"),
+        Response("none", "none", None, f"could not be run: {made_up.HOSTILE}"),
     ]
 
 

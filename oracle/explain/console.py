@@ -1,25 +1,30 @@
-"""A derivation on the terminal: aligned, coloured where colours are, as wide as the screen.
+"""Derivations, golden rows and proofs on the terminal: aligned, coloured, as wide as the screen.
 
 Lines are laid out here and printed as they are, so nothing is cut and no line ends in blanks.
 """
 
 from __future__ import annotations
 
+import re
 import textwrap
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 from rich.text import Text
 
 from raycert.cases.formats import Format
-from raycert.cases.model import Ray, Solid, Tree, Vector, type_of
+from raycert.cases.model import FIELDS, Ray, Solid, Tree, Vector, type_of
 from raycert.cases.row import GoldenRow
-from raycert.oracle.explain.derive import Derivation
-from raycert.oracle.explain.form import Cell, Fact, Note, Step, Table, shorten, shortest
+from raycert.oracle.explain.derive import Derivation, row_passages
+from raycert.oracle.explain.wording import Demand, Fact, Note, Passage, Table, shorten, shortest
+
+if TYPE_CHECKING:
+    from raycert.oracle.witness.proofs import Statement
 
 NAME, ASIDE = "cyan", "bright_black"
-LABELS = ("point", "normal", "center", "p", "q", "radius")
-MARGIN = 2
+MARGIN, INDENT = 2, 4
+OUTCOMES = {True: ("proved", "green"), False: ("NOT PROVED", "bold red")}
 ALIGNED = 25
 """Values up to this long make a column; what stands beside longer ones just follows."""
 Field = tuple[str, str]
@@ -28,18 +33,37 @@ Field = tuple[str, str]
 
 def show(derivation: Derivation, console: Console, full: bool) -> None:
     """Print a derivation; long integers in full, and then on lines of any length, if asked to."""
-    width = 10**9 if full else console.width
-    lines = list(case_lines(derivation.row, derivation.format, width))
-    for step in derivation.steps:
-        lines += [Text(), Text(step.heading, "bold"), *step_lines(step, width, full)]
-    put(console, lines)
+    _put(console, _case(derivation.row, derivation.format, derivation.steps, console, full))
 
 
-def put(console: Console, lines: Iterable[Text]) -> None:
+def show_rows(rows: Sequence[GoldenRow], fmt: Format, console: Console, full: bool) -> None:
+    """Print golden rows: what the files hold, with nothing computed anew."""
+    for i, row in enumerate(rows):
+        if i:
+            _put(console, (Text(), Text()))
+        _put(console, _case(row, fmt, row_passages(row, fmt), console, full))
+
+
+def show_proofs(statements: Sequence[Statement], console: Console) -> None:
+    """Print what the names mean, and each statement below its title."""
+    _put(console, proof_lines(statements, console.width))
+
+
+def _put(console: Console, lines: Iterable[Text]) -> None:
     """Print lines as they are."""
     for line in lines:
         line.rstrip()
         console.print(line, soft_wrap=True, highlight=False)
+
+
+def _case(
+    row: GoldenRow, fmt: Format, passages: Iterable[Passage], console: Console, full: bool
+) -> Iterator[Text]:
+    width = 10**9 if full else console.width
+    yield from case_lines(row, fmt, width)
+    for passage in passages:
+        yield from (Text(), Text(passage.heading, "bold"))
+        yield from passage_lines(passage, width, full)
 
 
 def case_lines(row: GoldenRow, fmt: Format, width: int) -> Iterator[Text]:
@@ -62,11 +86,10 @@ def _ray(ray: Ray, fmt: Format) -> list[str]:
 
 def _solid_fields(solid: Solid, path: str, fmt: Format) -> Iterator[tuple[str, list[str]]]:
     words = [type_of(solid)]
-    for name in LABELS:
-        value = getattr(solid, name, None)
-        if value is not None:
-            number = _vector(value, fmt) if isinstance(value, tuple) else shortest(value, fmt)
-            words.append(f"{name} {number}")
+    for name in () if isinstance(solid, Tree) else FIELDS[type(solid)]:
+        value = getattr(solid, name)
+        number = _vector(value, fmt) if isinstance(value, tuple) else shortest(value, fmt)
+        words.append(f"{name} {number}")
     yield path or "solid", words
     if isinstance(solid, Tree):
         for i, part in enumerate(solid.of):
@@ -77,15 +100,15 @@ def _vector(v: Vector, fmt: Format) -> str:
     return f"({', '.join(shortest(x, fmt) for x in v)})"
 
 
-def step_lines(step: Step, width: int, full: bool) -> Iterator[Text]:
-    """Yield the lines of a step; its facts share their columns."""
-    facts = [line for line in step.lines if isinstance(line, Fact)]
+def passage_lines(passage: Passage, width: int, full: bool) -> Iterator[Text]:
+    """Yield the lines of a passage; its facts share their columns."""
+    facts = [line for line in passage.lines if isinstance(line, Fact)]
     names = max((len(fact.name) for fact in facts), default=0)
     signs = any(fact.sign for fact in facts)
     beside = [f for f in facts if f.about] or [f for f in facts if f.note]
     mains = [len(_main(fact, full)) for fact in beside]
     column = max((size for size in mains if size <= ALIGNED), default=0)
-    for line in step.lines:
+    for line in passage.lines:
         if isinstance(line, Fact):
             fields = list(_fields(line, full, signs, column))
             yield layout(line.name.ljust(names), fields, width, MARGIN)
@@ -130,7 +153,7 @@ def layout(name: str, fields: list[Field], width: int, margin: int) -> Text:
 
 
 def table_lines(table: Table, width: int) -> Iterator[Text]:
-    """Yield one of the seed's tables: each condition with yes or no, the row taken marked."""
+    """Yield a case table: each condition with yes or no, the row taken marked."""
     head = ["  row", *table.quantities, "emits"]
     here = ["  here", *(sign.rjust(4) for sign in table.signs), ""]
     body = [
@@ -150,8 +173,56 @@ def table_lines(table: Table, width: int) -> Iterator[Text]:
         yield line(cells, "bold green" if row.taken else ASIDE)
 
 
-def _cell(cell: Cell | None) -> str:
+def _cell(cell: Demand | None) -> str:
     if cell is None:
         return ""
     word = {None: "", True: "yes", False: "no"}[cell.holds]
     return f"{cell.relation:>4} {word}"
+
+
+def proof_lines(statements: Sequence[Statement], width: int) -> Iterator[Text]:
+    """Yield the lines of a list of proofs."""
+    from raycert.oracle.witness.proofs import LEGEND  # needs SymPy
+
+    yield Text("Symbols", "bold")
+    for line in LEGEND:
+        yield from _wrapped(line, width, MARGIN)
+    heading = ""
+    for statement in statements:
+        if (opened := _heading(statement.title)) not in ("", heading):
+            heading = opened
+            yield Text()
+            yield Text(heading, "bold")
+        word, style = OUTCOMES[statement.proved]
+        title = Text(" " * MARGIN + statement.title, "cyan")
+        title.pad_right(max(width - len(word) - len(title), 2))
+        yield title.append(word, style)
+        yield from _wrapped(unbroken(statement.text), width, INDENT)
+    yield Text()
+    count = sum(statement.proved for statement in statements)
+    yield Text(f"{count} of {len(statements)} statements proved by SymPy", "bold")
+
+
+def _heading(title: str) -> str:
+    """Return the part of the argument that a title opens; none if it goes on in the same."""
+    if title.endswith(("complete", "exclusive")):
+        return "The case tables"
+    if "sphere" in title:
+        return "Sphere"
+    if title[0].isdigit():
+        return f"Problem {title[0]}"
+    return "" if title.startswith("the oracle") else "Identity"
+
+
+def unbroken(text: str) -> str:
+    """Return an equation so that it breaks only before =, + and -; words break at every blank."""
+    if text.startswith(("one of ", "no two ")):
+        return text
+    return re.sub(r" (?![-+=] )", "\N{NO-BREAK SPACE}", text)
+
+
+def _wrapped(text: str, width: int, indent: int) -> Iterator[Text]:
+    """Yield a text in lines, those after the first indented by two more."""
+    first, later = " " * indent, " " * (indent + 2)
+    for line in textwrap.wrap(text, width, initial_indent=first, subsequent_indent=later):
+        yield Text(line.replace("\N{NO-BREAK SPACE}", " "))

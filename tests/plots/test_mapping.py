@@ -17,11 +17,10 @@ from PIL import Image
 
 from raycert.cases.model import Cylinder, Ray
 from raycert.oracle.client.target import target
-from raycert.oracle.map.cells import Map, Show, sample
-from raycert.oracle.map.inputs import Inputs
 from raycert.oracle.map.legend import ORDER, class_of
-from raycert.oracle.map.plan import Plan, Unit
-from raycert.oracle.plots.cells import CURVES, DIFFERENCES, ENDLESS, FAILED, draw, palette, save
+from raycert.oracle.map.raster import Inputs, Raster, Unit
+from raycert.oracle.map.sampling import Map, Show, sample
+from raycert.oracle.plots.mapping import CURVES, DIFFERENCES, ENDLESS, FAILED, draw, palette, save
 from raycert.oracle.plots.style import styled
 
 CASE = Cylinder((0, 0, 0), (0, 0, 2), 1), Ray((-3, 1, 1), (1, 0, 0))
@@ -30,7 +29,7 @@ CASE = Cylinder((0, 0, 0), (0, 0, 2), 1), Ray((-3, 1, 1), (1, 0, 0))
 def made(show: Show, unit: Unit = "ulps", span: int = 3) -> Map:
     inputs = Inputs(*CASE)
     axes = inputs.direction("ray.origin[1]"), inputs.direction("solid.radius")
-    plan = Plan.of(inputs, axes, unit, Fraction(span), 6)
+    plan = Raster.of(inputs, axes, unit, Fraction(span), 6)
     return sample(plan, show, target(["raycert.reference.tracer:intersect"]))
 
 
@@ -97,7 +96,7 @@ def test_numbers_go_from_light_to_dark_and_the_endless_is_red() -> None:
 
 def test_a_part_of_a_map_is_drawn_and_the_rest_is_white() -> None:
     found = made("exact")
-    part = Map(found.plan, "exact", None, {(0, 0): found.cells[0, 0]})
+    part = Map(found.raster, "exact", None, {(0, 0): found.cells[0, 0]})
     assert (pixels(part) == 1).all(axis=2).sum() == 48
 
 

@@ -23,12 +23,12 @@ from raycert.cases.model import (
 from raycert.cases.table import HALF_SPACE, PROBLEM_1, PROBLEM_2, PROBLEM_3
 from raycert.oracle.exact.surd import INFINITY, Surd
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.explain.derive import derive, given, solid_steps, to_json
-from raycert.oracle.explain.ends import judgement
-from raycert.oracle.explain.form import (
+from raycert.oracle.explain.console import passage_lines
+from raycert.oracle.explain.derive import derive, given, judgement, solid_steps, to_json
+from raycert.oracle.explain.wording import (
     Fact,
     Note,
-    Step,
+    Passage,
     Table,
     brief,
     dyadic,
@@ -37,7 +37,6 @@ from raycert.oracle.explain.form import (
     tidy,
     vector,
 )
-from raycert.oracle.explain.text import step_lines
 from raycert.oracle.judge.levels import Judge
 from raycert.oracle.zoo.textbook import textbook
 
@@ -77,16 +76,16 @@ small = st.floats(-8, 8, width=32)
 vectors = st.tuples(small, small, small)
 
 
-def tables(steps: tuple[Step, ...]) -> list[Table]:
+def tables(steps: tuple[Passage, ...]) -> list[Table]:
     return [line for step in steps for line in step.lines if isinstance(line, Table)]
 
 
-def facts(steps: tuple[Step, ...]) -> dict[str, Fact]:
+def facts(steps: tuple[Passage, ...]) -> dict[str, Fact]:
     return {line.name: line for step in steps for line in step.lines if isinstance(line, Fact)}
 
 
-def text(steps: tuple[Step, ...], width: int = 80, full: bool = False) -> str:
-    return "\n".join(line.plain for step in steps for line in step_lines(step, width, full))
+def text(steps: tuple[Passage, ...], width: int = 80, full: bool = False) -> str:
+    return "\n".join(line.plain for step in steps for line in passage_lines(step, width, full))
 
 
 @pytest.mark.parametrize("ray", RAYS.values(), ids=RAYS)
@@ -298,7 +297,7 @@ def test_notes_name_the_part_of_the_seed() -> None:
         if isinstance(line, Note) and line.text.startswith("Row")
     ]
     assert notes == [
-        "Row through, seed part 1 (f,g-II,i): (a, b) = (t1, t2)",
-        "Row AE, seed part 2 (g): (c, d) = (0, inf)",
-        "Row meet, seed part 3 (d): (m, n)",
+        "Row through, Problem 1 (f,g-II,i): (a, b) = (t1, t2)",
+        "Row AE, Problem 2 (g): (c, d) = (0, inf)",
+        "Row meet, Problem 3 (d): (m, n)",
     ]

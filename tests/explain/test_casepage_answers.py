@@ -6,8 +6,8 @@ from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, Intersection, Ray, Solid, Sphere
 from raycert.oracle.client.dialogue import Command
 from raycert.oracle.client.inprocess import InProcess
+from raycert.oracle.explain.casepage import ask
 from raycert.oracle.explain.derive import derive, given
-from raycert.oracle.explain.one_case import ask
 
 CAN = Cylinder((0.0, 0.0, 0.0), (0.0, 0.0, 2.0), 1.0)
 RAY = Ray((-3.0, 0.25, 1.0), (1.0, 0.0, 0.0))

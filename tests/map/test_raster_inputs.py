@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from raycert.cases.formats import BINARY32
 from raycert.cases.model import Cylinder, Difference, HalfSpace, Ray, Refused, Sphere, leaves
-from raycert.oracle.map.inputs import Inputs
+from raycert.oracle.map.raster import Inputs
 
 BALL, ROD = Sphere((1.0, 2.0, 3.0), 4.0), Cylinder((5.0, 6.0, 7.0), (8.0, 9.0, 10.0), 11.0)
 TREE = Difference((BALL, Difference((ROD, HalfSpace((12.0, 13.0, 14.0), (15.0, 16.0, 17.0))))))
@@ -26,12 +26,12 @@ def test_all_numbers_are_named_once() -> None:
 
 
 def test_nothing_replaced_is_the_case() -> None:
-    assert INPUTS.case({}) == (TREE, RAY)
+    assert INPUTS.probe({}) == (TREE, RAY)
 
 
 @given(st.sampled_from(INPUTS.paths), st.integers(100, 200))
 def test_one_number_is_replaced_and_no_other(path: str, value: int) -> None:
-    moved = Inputs(*INPUTS.case({path: float(value)}))
+    moved = Inputs(*INPUTS.probe({path: float(value)}))
     assert {p: moved[p] for p in moved.paths} == {
         p: float(value) if p == path else INPUTS[p] for p in INPUTS.paths
     }
@@ -39,7 +39,7 @@ def test_one_number_is_replaced_and_no_other(path: str, value: int) -> None:
 
 def test_what_passes_through_no_case_is_one_in_the_end() -> None:
     """Both points move by 1, so that p is q in between if they move one after the other."""
-    solid, _ = Inputs(Cylinder((0, 0, 0), (0, 0, 1), 1), RAY).case(
+    solid, _ = Inputs(Cylinder((0, 0, 0), (0, 0, 1), 1), RAY).probe(
         {"solid.p[2]": 1.0, "solid.q[2]": 2.0}
     )
     assert dict(leaves(solid))[""] == Cylinder((0, 0, 1), (0, 0, 2), 1)
@@ -58,12 +58,12 @@ def test_what_passes_through_no_case_is_one_in_the_end() -> None:
 )
 def test_what_is_no_case_is_refused_with_its_path(values: dict[str, float], path: str) -> None:
     with pytest.raises(Refused, match=re.escape(path)):
-        INPUTS.case(values)
+        INPUTS.probe(values)
 
 
 def test_a_format_is_kept() -> None:
     with pytest.raises(Refused, match="binary32"):
-        Inputs(BALL, RAY, BINARY32).case({"solid.radius": 0.1})
+        Inputs(BALL, RAY, BINARY32).probe({"solid.radius": 0.1})
 
 
 def test_a_direction_is_read_as_it_is_written() -> None:

@@ -10,16 +10,15 @@ from hypothesis import strategies as st
 from raycert.cases.formats import BINARY32, BINARY64
 from raycert.cases.model import Cylinder, Ray, Refused
 from raycert.cases.recipes import neighbour
-from raycert.oracle.map.inputs import Inputs
-from raycert.oracle.map.plan import UNITS, Plan, Unit, moved, on_grid
+from raycert.oracle.map.raster import UNITS, Inputs, Raster, Unit, moved, on_grid
 
 ROD = Inputs(Cylinder((0, 0, 0), (0, 0, 2), 1), Ray((-3, 0.1, 1), (1, 0, 0)))
 FINITE = st.floats(allow_nan=False, allow_infinity=False)
 
 
-def plan(x: str, y: str, unit: Unit = "ulps", span: object = 8, most: int = 17) -> Plan:
+def plan(x: str, y: str, unit: Unit = "ulps", span: object = 8, most: int = 17) -> Raster:
     axes = ROD.direction(x), ROD.direction(y)
-    return Plan.of(ROD, axes, unit, Fraction(str(span)), most)
+    return Raster.of(ROD, axes, unit, Fraction(str(span)), most)
 
 
 @given(FINITE.filter(bool), st.integers(0, 40))
@@ -71,7 +70,7 @@ def test_units_and_shares_are_rounded_once() -> None:
 def test_the_case_is_in_the_middle_and_comes_first(unit: Unit) -> None:
     found = plan("ray.origin[1]", "solid.radius", unit, 2 if unit == "ulps" else 0.5)
     assert found.places[0] == (0, 0)
-    assert found.case((0, 0)) == ROD.case({})
+    assert found.probe((0, 0)) == ROD.probe({})
     distances = [max(abs(i), abs(j)) for i, j in found.places]
     assert distances == sorted(distances)
     assert len(set(found.places)) == (2 * found.half + 1) ** 2

@@ -23,7 +23,6 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import Normal, Stroke
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from raycert.oracle.map.cells import NUMBERS, Cell, Map
 from raycert.oracle.map.legend import (
     ORDER,
     axis_label,
@@ -38,7 +37,8 @@ from raycert.oracle.map.legend import (
     subtitle,
     thin,
 )
-from raycert.oracle.map.plan import At
+from raycert.oracle.map.raster import At
+from raycert.oracle.map.sampling import NUMBERS, Cell, Map
 from raycert.oracle.map.topology import Kind
 from raycert.oracle.plots.style import DPI, FAINT, INK, PAPER, figure, plain, styled
 
@@ -104,14 +104,14 @@ def save(found: Map, title: str, path: Path) -> None:
 
 
 def _extent(found: Map) -> tuple[float, float, float, float]:
-    step = float(found.plan.step)
-    reach = (found.plan.half + 0.5) * step
+    step = float(found.raster.step)
+    reach = (found.raster.half + 0.5) * step
     return (-reach, reach, -reach, reach)
 
 
 def _image(axes: Axes, found: Map, colour: dict[At, tuple[float, ...]]) -> None:
     """Paint cells in their colours; the others stay white."""
-    half = found.plan.half
+    half = found.raster.half
     picture = np.ones((2 * half + 1, 2 * half + 1, 3))
     for (i, j), rgb in colour.items():
         picture[j + half, i + half] = rgb[:3]
@@ -208,7 +208,7 @@ def _shade(cell: Cell, shades: Any, norm: Any) -> tuple[float, ...]:
 
 def _hatched(axes: Axes, found: Map) -> list[Any]:
     """Hatch what is no valid case, run by run, and say why of the first."""
-    step, runs = float(found.plan.step), list[Any]()
+    step, runs = float(found.raster.step), list[Any]()
     refused = sorted((j, i) for (i, j), cell in found.cells.items() if cell.refused)
     if not refused:
         return []
@@ -231,7 +231,7 @@ def _hatched(axes: Axes, found: Map) -> list[Any]:
 def _curves(axes: Axes, found: Map) -> list[Any]:
     """Draw what lies on and between cells, and return what the legend says of it."""
     handles = []
-    step = float(found.plan.step)
+    step = float(found.raster.step)
     through, along = thin(found), edges(found)
     for kind in (kind for kind in CURVES if kind in {*through.values(), *along}):
         colour, dash = CURVES[kind]
@@ -254,7 +254,7 @@ def _curves(axes: Axes, found: Map) -> list[Any]:
 
 def _squares(axes: Axes, found: Map, places: Sequence[At], colour: str) -> None:
     """Mark lone cells that lie on a curve: whole where forms are shown, else in their middle."""
-    step = float(found.plan.step)
+    step = float(found.raster.step)
     half = step * (0.5 if found.show == "exact" else 0.25)
     corners = ((-1, -1), (1, -1), (1, 1), (-1, 1))
     squares = [[(i * step + a * half, j * step + b * half) for a, b in corners] for i, j in places]
@@ -279,7 +279,7 @@ def _label(axes: Axes, found: Map) -> None:
     for spine in axes.spines.values():
         spine.set_visible(True)
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(MaxNLocator(7, integer=found.plan.unit == "ulps"))
+        axis.set_major_locator(MaxNLocator(7, integer=found.raster.unit == "ulps"))
         axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:.6g}"))
     axes.set_xlabel(axis_label(found, "x"))
     axes.set_ylabel(axis_label(found, "y"))

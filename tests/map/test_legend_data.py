@@ -10,10 +10,9 @@ import pytest
 from raycert.cases.forms import read_ray, read_solid
 from raycert.cases.model import Cylinder, Ray
 from raycert.oracle.client.target import target
-from raycert.oracle.map.cells import Map, Show, sample
-from raycert.oracle.map.data import to_csv, to_json
-from raycert.oracle.map.inputs import Inputs
-from raycert.oracle.map.plan import Plan
+from raycert.oracle.map.legend import to_csv, to_json
+from raycert.oracle.map.raster import Inputs, Raster
+from raycert.oracle.map.sampling import Map, Show, sample
 
 CASE = Cylinder((0, 0, 0), (0, 0, 2), 1), Ray((-3, 1, 1), (1, 0, 0))
 
@@ -21,7 +20,7 @@ CASE = Cylinder((0, 0, 0), (0, 0, 2), 1), Ray((-3, 1, 1), (1, 0, 0))
 def made(show: Show) -> Map:
     inputs = Inputs(*CASE)
     axes = inputs.direction("ray.origin[1]"), inputs.direction("solid.radius=1,ray.origin[0]=-1")
-    plan = Plan.of(inputs, axes, "units", Fraction(2), 4)
+    plan = Raster.of(inputs, axes, "units", Fraction(2), 4)
     return sample(plan, show, target(["raycert.reference.tracer:intersect"]))
 
 
@@ -38,7 +37,7 @@ def test_json_gives_back_every_cell(show: Show) -> None:
         if cell.topology is None:
             assert row["refused"] == cell.refused
             continue
-        assert inputs.case(values) == found.plan.case((row["x"], row["y"]))
+        assert inputs.probe(values) == found.raster.probe((row["x"], row["y"]))
         assert form["topologies"][row["topology"]]["label"] == cell.topology.label
         pairs = tuple((float.fromhex(a), float.fromhex(b)) for a, b in row["expected"])
         assert pairs == cell.expected

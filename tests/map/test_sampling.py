@@ -9,13 +9,15 @@ import pytest
 
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, Ray
+from raycert.cases.numbers import Probe
 from raycert.cases.protocol import Hello, Reply
 from raycert.oracle.client.target import target
 from raycert.oracle.exact.intervals import expected
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.answer import First, YesNo
 from raycert.oracle.judge.levels import Judge
-from raycert.oracle.map.cells import (
+from raycert.oracle.map.raster import Inputs, Raster
+from raycert.oracle.map.sampling import (
     BEYOND,
     EXACT,
     FAITHFUL,
@@ -23,16 +25,14 @@ from raycert.oracle.map.cells import (
     MANY,
     RIGHT,
     WITHIN,
+    Comparison,
     Map,
-    Measure,
+    Mismatch,
     Show,
-    Unfit,
     difference,
     looks,
     sample,
 )
-from raycert.oracle.map.inputs import Inputs
-from raycert.oracle.map.plan import Plan
 
 ROD = Cylinder((0, 0, 0), (0, 0, 2), 1)
 TANGENT = Inputs(ROD, Ray((-3, 1, 1), (1, 0, 0)))
@@ -40,9 +40,9 @@ FAR = Inputs(ROD, Ray((-8e7, -6e7, 1), (0.8, 0.6, 0)))
 REFERENCE, TEXTBOOK = "raycert.reference.tracer:intersect", "raycert.oracle.zoo.textbook:textbook"
 
 
-def plan(inputs: Inputs = TANGENT, unit: str = "ulps", span: object = 3) -> Plan:
+def plan(inputs: Inputs = TANGENT, unit: str = "ulps", span: object = 3) -> Raster:
     axes = inputs.direction("ray.origin[1]"), inputs.direction("solid.radius")
-    return Plan.of(inputs, axes, unit, Fraction(str(span)), 7)  # type: ignore[arg-type]
+    return Raster.of(inputs, axes, unit, Fraction(str(span)), 7)  # type: ignore[arg-type]
 
 
 def asked(show: Show, name: str = REFERENCE, **more: object) -> Map:
@@ -54,7 +54,7 @@ def test_every_cell_has_the_exact_answer_of_its_own_case() -> None:
     assert found.whole
     assert found.hello is None
     for at, cell in found.cells.items():
-        exact = trace(*found.plan.case(at)).intervals
+        exact = trace(*found.raster.probe(at)).intervals
         assert cell.expected == expected(exact, BINARY64)[1]
         assert cell.topology is not None
         assert cell.topology.pairs == len(exact) == (at[0] <= at[1])
@@ -64,7 +64,7 @@ def test_every_cell_has_the_exact_answer_of_its_own_case() -> None:
 def test_what_is_no_case_says_why() -> None:
     found = sample(plan(unit="units"), "exact")
     refused = {at for at, cell in found.cells.items() if cell.refused}
-    assert refused == {at for at in found.plan.places if at[1] < -1}
+    assert refused == {at for at in found.raster.places if at[1] < -1}
     assert "solid.radius: is negative" in found.cells[0, -3].refused
 
 
@@ -73,7 +73,7 @@ def test_k_and_ulps_are_the_judges(name: str) -> None:
     ks = asked("k", name, inputs=FAR, unit="units", span=0.75)
     ulps = asked("ulps", name, inputs=FAR, unit="units", span=0.75)
     for at, cell in ks.cells.items():
-        judge = Judge(*ks.plan.case(at), BINARY64)
+        judge = Judge(*ks.raster.probe(at), BINARY64)
         assert isinstance(cell.outcome, Reply)
         pairs = cell.outcome.intervals
         assert pairs is not None
@@ -134,22 +134,22 @@ def test_first_hits_and_yes_or_no_have_looks_and_differences() -> None:
     ],
 )
 def test_what_is_no_answer_says_why(reply: Reply, says: str) -> None:
-    cell = Measure("k", Hello("x"))(TANGENT.case({}), reply, plan())
+    cell = Comparison("k", Hello("x"), BINARY64)(TANGENT.probe({}), reply)
     assert cell.value is None
     assert says in cell.says
 
 
 def test_a_gross_answer_has_an_infinite_error() -> None:
     reply = Reply("", intervals=())
-    cell = Measure("ulps", Hello("x"))((ROD, Ray((-3, 0, 1), (1, 0, 0))), reply, plan())
+    cell = Comparison("ulps", Hello("x"), BINARY64)(Probe(ROD, Ray((-3, 0, 1), (1, 0, 0))), reply)
     assert cell.value == inf
 
 
 def test_a_target_that_cannot_take_the_case_is_refused() -> None:
     from raycert.cases.formats import BINARY32
 
-    with pytest.raises(Unfit, match="binary32"):
-        asked("k", inputs=Inputs(*TANGENT.case({}), BINARY32))
+    with pytest.raises(Mismatch, match="binary32"):
+        asked("k", inputs=Inputs(*TANGENT.probe({}), BINARY32))
 
 
 @contextmanager

@@ -9,25 +9,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass, field
-from typing import Literal
+from dataclasses import dataclass, field, replace
+from typing import Literal, get_args
 
 from raycert.cases.accept import Numbers
-from raycert.cases.formats import BINARY64
+from raycert.cases.formats import BINARY64, Format
 from raycert.cases.model import Refused, types
+from raycert.cases.numbers import Probe
 from raycert.cases.protocol import Hello, Reply
-from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target, Unusable
-from raycert.oracle.client.process import Failure
+from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target, Unusable, silence
 from raycert.oracle.client.replay import Interrupted, greet, run
+from raycert.oracle.exact.intervals import expected
 from raycert.oracle.judge.answer import Claim, First, Listed, YesNo, claim
 from raycert.oracle.judge.levels import Judge
 from raycert.oracle.judge.pixels import error
-from raycert.oracle.map.inputs import Case
-from raycert.oracle.map.plan import At, Plan
-from raycert.oracle.map.topology import Topology, counted, rounded, topology
+from raycert.oracle.map.raster import At, Raster
+from raycert.oracle.map.topology import Topology, counted, topology
 
 Show = Literal["exact", "answer", "k", "ulps", "disagreement"]
-SHOWS: tuple[Show, ...] = ("exact", "answer", "k", "ulps", "disagreement")
+SHOWS: tuple[Show, ...] = get_args(Show)
 NUMBERS = ("k", "ulps")
 EXACT, FAITHFUL = "the exact list, rounded", "each number next to the exact one"
 RIGHT, FEW, MANY = "as many pairs", "too few pairs", "too many pairs"
@@ -35,7 +35,7 @@ WITHIN, BEYOND = ", k <= 64", ", k > 64"
 Counting = Callable[[str, int], AbstractContextManager[Callable[..., None]]]
 
 
-class Unfit(Unusable):
+class Mismatch(Unusable):
     """The implementation cannot be asked this case: what it declares excludes it."""
 
 
@@ -61,82 +61,75 @@ class Cell:
 
 @dataclass(frozen=True)
 class Map:
-    """The cells of a plan, by their places; all of them unless the map was interrupted."""
+    """The cells of a raster, by their places; all of them unless the map was interrupted."""
 
-    plan: Plan
+    raster: Raster
     show: Show
     hello: Hello | None = None
     cells: dict[At, Cell] = field(default_factory=dict)
 
     @property
     def whole(self) -> bool:
-        """Tell whether every cell is there."""
-        return len(self.cells) == len(self.plan.places)
+        """Whether every cell is there."""
+        return len(self.cells) == len(self.raster.places)
 
 
 def sample(
-    plan: Plan,
+    raster: Raster,
     show: Show,
     target: Target | None = None,
     limits: Limits | None = None,
     counting: Counting = _silent,
 ) -> Map:
-    """Return the map of a plan. On KeyboardInterrupt it has the cells that were finished.
+    """Return the map of a raster. On KeyboardInterrupt it has the cells that were finished.
 
-    Everything but `exact` needs a target. Raises `Unusable`, and `Unfit` where the target does not
+    Everything but `exact` needs a target. Raises `Unusable`; `Mismatch` where the target does not
     take the solid or the format.
     """
-    made = [(at, _made(plan, at)) for at in plan.places]
-    hello, outcomes = None, dict[str, Outcome]()
+    probes = {at: _probe(raster, at) for at in raster.places}
+    hello, outcomes = None, dict[At, Outcome]()
     if show != "exact":
         assert target is not None
         hello = greet(target, limits)
-        _check(hello, plan)
-        outcomes = _asked(target, made, limits, counting)
-    found = Map(plan, show, hello)
-    measure = Measure(show, hello)
+        _check(hello, raster)
+        outcomes = _asked(target, probes, limits, counting)
+    found = Map(raster, show, hello)
+    compare = Comparison(show, hello, raster.inputs.format)
     try:
-        with counting("comparing", len(made)) as advance:
-            for at, case in made:
-                if isinstance(case, Refused):
-                    found.cells[at] = Cell(refused=str(case))
-                elif hello is None or name(at) in outcomes:
-                    found.cells[at] = measure(case, outcomes.get(name(at)), plan)
+        with counting("comparing", len(probes)) as advance:
+            for at, probe in probes.items():
+                if isinstance(probe, Refused):
+                    found.cells[at] = Cell(refused=str(probe))
+                elif hello is None or at in outcomes:
+                    found.cells[at] = compare(probe, outcomes.get(at))
                 advance()
     except KeyboardInterrupt:
         pass
     return found
 
 
-def name(at: At) -> str:
-    """Return the id of a cell's question."""
-    return f"{at[0]},{at[1]}"
-
-
-def _made(plan: Plan, at: At) -> Case | Refused:
+def _probe(raster: Raster, at: At) -> Probe | Refused:
     try:
-        return plan.case(at)
+        return raster.probe(at)
     except Refused as refusal:
         return refusal
 
 
-def _check(hello: Hello, plan: Plan) -> None:
-    fmt = plan.inputs.format
+def _check(hello: Hello, raster: Raster) -> None:
+    fmt = raster.inputs.format
     if hello.precision != fmt.name:
-        raise Unfit(f"the target is of {hello.precision}, the case of {fmt.name}")
-    solid, _ = plan.inputs.case({})
-    if missing := sorted(types(solid) - {*hello.solids}):
-        raise Unfit(f"the target declares no {', '.join(missing)}")
+        raise Mismatch(f"the target is of {hello.precision}, the case of {fmt.name}")
+    if missing := sorted(types(raster.inputs.probe({}).solid) - {*hello.solids}):
+        raise Mismatch(f"the target declares no {', '.join(missing)}")
 
 
 def _asked(
-    target: Target,
-    made: list[tuple[At, Case | Refused]],
-    limits: Limits | None,
-    counting: Counting,
-) -> dict[str, Outcome]:
-    """Return what the target answered, by the ids; what was known by then if interrupted."""
-    questions = [Question(name(at), *case) for at, case in made if not isinstance(case, Refused)]
+    target: Target, probes: dict[At, Probe | Refused], limits: Limits | None, counting: Counting
+) -> dict[At, Outcome]:
+    """Return what the target answered; what was known by then if interrupted."""
+    places = {f"{at[0]},{at[1]}": at for at in probes}
+    asked = ((id, probes[at]) for id, at in places.items())
+    questions = [Question(id, *probe) for id, probe in asked if not isinstance(probe, Refused)]
     done = 0
     with counting("asking", len(questions)) as advance:
 
@@ -146,57 +139,50 @@ def _asked(
             done = known
 
         try:
-            return dict(run(target, questions, limits, on_progress).outcomes)
+            outcomes = run(target, questions, limits, on_progress).outcomes
         except Interrupted as interrupted:
-            return dict(interrupted.run.outcomes)
+            outcomes = interrupted.run.outcomes
+    return {places[id]: outcome for id, outcome in outcomes.items()}
 
 
-class Measure:
+class Comparison:
     """Answers cells exactly and compares; remembers the step of the last k as a guess."""
 
-    def __init__(self, show: Show, hello: Hello | None) -> None:
+    def __init__(self, show: Show, hello: Hello | None, fmt: Format) -> None:
         """Prepare for the answers of a target that said this hello; None if there is none."""
-        self._show, self._hello = show, hello
+        self._show, self._hello, self._format = show, hello, fmt
         self._guess = 0
 
-    def __call__(self, case: Case, outcome: Outcome | None, plan: Plan) -> Cell:
-        """Return the cell of a case and what was answered to it."""
-        fmt, hello = plan.inputs.format, self._hello
-        form, exact = topology(case)
-        wanted = rounded(exact, fmt)
+    def __call__(self, probe: Probe, outcome: Outcome | None) -> Cell:
+        """Return the cell of a probe and what was answered to it."""
+        hello = self._hello
+        form, exact = topology(probe)
+        wanted = expected(exact.intervals, self._format)[1]
         if outcome is None or hello is None:
             return Cell(topology=form, expected=wanted, says=form.label)
-        judge = Judge(*case, fmt, tolerance=hello.tolerance)
-        silent = _silence(outcome)
-        if silent or not isinstance(outcome, Reply):
-            return Cell("", form, wanted, outcome, None, silent)
+        cell = Cell(topology=form, expected=wanted, outcome=outcome)
+        if silent := silence(outcome):
+            return replace(cell, says=": ".join(silent))
+        assert isinstance(outcome, Reply)
+        judge = Judge(*probe, self._format, tolerance=hello.tolerance)
         said = claim(outcome, hello)
         if malformed := said.malformed(judge):
-            return Cell("", form, wanted, outcome, None, f"malformed: {malformed}")
+            return replace(cell, says=f"malformed: {malformed}")
         match self._show:
             case "k":
-                return Cell("", form, wanted, outcome, self._k(said, case, judge))
+                return replace(cell, value=self._k(said, judge))
             case "ulps":
-                return Cell("", form, wanted, outcome, said.forward_error(judge))
+                return replace(cell, value=said.forward_error(judge))
             case "answer":
-                return Cell("", form, wanted, outcome, None, looks(said))
-        return Cell("", form, wanted, outcome, None, difference(said, judge))
+                return replace(cell, says=looks(said))
+        return replace(cell, says=difference(said, judge))
 
-    def _k(self, said: Claim, case: Case, judge: Judge) -> float:
+    def _k(self, said: Claim, judge: Judge) -> float:
         """Return the strict backward error."""
         if isinstance(said, Listed) and judge.format is BINARY64 and not judge.tolerance:
-            k, self._guess = error(*case, said.pairs, self._guess)
+            k, self._guess = error(judge.solid, judge.ray, said.pairs, self._guess)
             return k
         return said.backward_error(judge, "strict")
-
-
-def _silence(outcome: Outcome) -> str:
-    """Return why there is no answer; empty if there is one."""
-    if isinstance(outcome, Failure):
-        return f"{outcome.kind}: {outcome.detail}"
-    if outcome.unsupported is not None:
-        return f"unsupported: {outcome.unsupported}"
-    return "" if outcome.error is None else f"error: {outcome.error}"
 
 
 def looks(said: Claim) -> str:

@@ -1,4 +1,4 @@
-"""The form of a derivation: steps made of lines, and how exact numbers are worded in them.
+"""The form of a derivation: passages made of lines, and how exact numbers are worded in them.
 
 Everything is data, so that a terminal and a page can show the same derivation. Integers are
 written out in full; `shorten` is for the reader's sake and is left to whoever shows the lines.
@@ -7,12 +7,12 @@ written out in full; `shorten` is for the reader's sake and is left to whoever s
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass
 from fractions import Fraction
 from typing import Any
 
-from raycert.cases.accept import Pairs
+from raycert.cases.accept import Accept, Pairs
 from raycert.cases.formats import BINARY64, Format
 from raycert.cases.table import HOLDS, Row
 from raycert.oracle.exact.intervals import Intervals
@@ -38,7 +38,7 @@ class Fact:
 
 
 @dataclass(frozen=True, slots=True)
-class Cell:
+class Demand:
     """What a row asks of one quantity; `holds` is None where the quantity is undefined."""
 
     relation: str
@@ -46,22 +46,22 @@ class Cell:
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
-    """One row of a table of the seed: a cell or None for each quantity, what it emits."""
+class Entry:
+    """One row of a case table: a cell or None for each quantity, what it emits."""
 
     name: str
-    cells: tuple[Cell | None, ...]
+    cells: tuple[Demand | None, ...]
     pairs: str
     taken: bool
 
 
 @dataclass(frozen=True, slots=True)
 class Table:
-    """A table of the seed beside this case: the quantities, their signs here, all the rows."""
+    """A case table beside this case: the quantities, their signs here, all the rows."""
 
     quantities: tuple[str, ...]
     signs: tuple[str, ...]
-    rows: tuple[Line, ...]
+    rows: tuple[Entry, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,38 +72,38 @@ class Note:
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
-    """One step: what it is about, and its lines."""
+class Passage:
+    """One passage of a derivation: what it is about, and its lines."""
 
     heading: str
     lines: tuple[Fact | Table | Note, ...]
 
 
-def as_json(step: Step) -> dict[str, Any]:
-    """Return a step as a JSON object; each line says its form: `fact`, `table` or `note`."""
-    lines = [{"form": type(line).__name__.lower(), **asdict(line)} for line in step.lines]
-    return {"heading": step.heading, "lines": lines}
+def as_json(passage: Passage) -> dict[str, Any]:
+    """Return a passage as a JSON object; each line says its form: `fact`, `table` or `note`."""
+    lines = [{"form": type(line).__name__.lower(), **asdict(line)} for line in passage.lines]
+    return {"heading": passage.heading, "lines": lines}
 
 
 def row_table(
     rows: tuple[Row, ...], names: Mapping[str, str], signs: Mapping[str, int], taken: Row
 ) -> Table:
-    """Return one of the seed's tables; `signs` lacks the quantities that are undefined here."""
+    """Return a case table; `signs` lacks the quantities that are undefined here."""
     quantities = list(dict.fromkeys(q for row in rows for q, _ in row.condition))
-    lines = []
+    entries = []
     for row in rows:
         asked = dict(row.condition)
         cells = tuple(_cell(q, asked[q], signs) if q in asked else None for q in quantities)
-        lines.append(Line(row.name, cells, row.pairs, row.name == taken.name))
+        entries.append(Entry(row.name, cells, row.pairs, row.name == taken.name))
     return Table(
         tuple(names[q] for q in quantities),
         tuple(RELATION[signs[q]] if q in signs else "-" for q in quantities),
-        tuple(lines),
+        tuple(entries),
     )
 
 
-def _cell(quantity: str, relation: str, signs: Mapping[str, int]) -> Cell:
-    return Cell(relation, signs[quantity] in HOLDS[relation] if quantity in signs else None)
+def _cell(quantity: str, relation: str, signs: Mapping[str, int]) -> Demand:
+    return Demand(relation, signs[quantity] in HOLDS[relation] if quantity in signs else None)
 
 
 def scalar(name: str, value: Fraction, note: str = "", sign: bool = True) -> Fact:
@@ -245,3 +245,20 @@ def shorten(text: str) -> str:
         return short if is_vector else f"{short} ({len(digits)} digits)"
 
     return re.sub(r"(?<![\d.])\d{21,}", cut, text)
+
+
+def enclosing(down: float, up: float, nearest: float, fmt: Format) -> Iterator[Fact]:
+    """Yield the numbers below and above an endpoint, or the one that it is."""
+    if down == up:
+        yield Fact("  number", shortest(down, fmt), note=f"{down.hex()} exactly")
+        return
+    for name, x in (("  down", down), ("  up", up)):
+        yield Fact(name, shortest(x, fmt), note=x.hex() + (" nearest" if x == nearest else ""))
+
+
+def accepting(level: str, accept: Accept, fmt: Format) -> Iterator[Fact]:
+    """Yield the two lists between which an answer is accepted."""
+    yield Fact(f"{level} inner", numbers(accept.inner, fmt), note="each lies in a pair")
+    most = ", ".join(map(str, accept.most))
+    pairs = f"at most {most} {'pair' if most == '1' else 'pairs'}" if most else "no pair"
+    yield Fact(f"{level} outer", numbers(accept.outer, fmt), note=pairs)
