@@ -14,6 +14,7 @@ from raycert.cases.families.frames import Exact
 from raycert.cases.families.shots import Shot, family
 from raycert.cases.families.sketch import (
     MAKE,
+    NOUNS,
     Ball,
     Body,
     Boolean,
@@ -142,17 +143,10 @@ def _trees(fmt: Format) -> Iterator[Shot]:
             yield _aimed(f"{kind}-seed-{seed}", text, shape, origin, target)
 
 
-KINDS = {
-    "half_space": "a half-space",
-    "slab": "a slab",
-    "infinite_cylinder": "an infinite cylinder",
-    "cylinder": "a cylinder",
-    "sphere": "a sphere",
-}
 FAMILIES: tuple[Family, ...] = (
     *(
         family(f"random-{k.replace('_', '-')}", "The base rate: random rays.", _leaves(k, noun))
-        for k, noun in KINDS.items()
+        for k, noun in NOUNS.items()
     ),
     family("csg-grid", "Random trees on a grid, where faces coincide.", _grid,
            flags=("coincident-faces",)),

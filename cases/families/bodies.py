@@ -44,14 +44,9 @@ Path = tuple[str, Exact, Exact] | tuple[str, Exact, Exact, Pairs | None]
 SHARED = ("coincident-faces",)
 TOUCHING = ("touching-parts",)
 FLAG_OF = {
-    "tangent": "tangent",
-    "wall": "wall",
-    "rim": "rim",
-    "rest": "zero-direction",
-    "start": "start-on-surface",
-    "inside": "start-inside",
-    "plane": "cap-plane",
-}
+    "tangent": "tangent", "wall": "wall", "rim": "rim", "rest": "zero-direction",
+    "start": "start-on-surface", "inside": "start-inside", "plane": "cap-plane",
+}  # fmt: skip
 """The flags that words for a ray tell."""
 
 

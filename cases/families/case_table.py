@@ -218,12 +218,9 @@ def _order(cell: tuple[str, ...]) -> str:
 
 
 WHEN = {
-    "ahead": (1, 3),
-    "from-the-wall": (0, 2),
-    "from-inside": (-1, 1),
-    "leaving": (-2, 0),
+    "ahead": (1, 3), "from-the-wall": (0, 2), "from-inside": (-1, 1), "leaving": (-2, 0),
     "behind": (-3, -1),
-}
+}  # fmt: skip
 TOUCHES = {"ahead": 2, "at-the-start": 0, "behind": -2}
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from raycert.cases.dice import Dice
+from raycert.cases.vectors import plus, times
 
 Number = int | Fraction
 Exact = tuple[Number, Number, Number]
@@ -41,27 +42,22 @@ class Frame:
 
     def point(self, point: Exact) -> Exact:
         """Return the image of a point."""
-        x, y, z = self.vector(point)
-        return (x + self.shift[0], y + self.shift[1], z + self.shift[2])
+        return plus(self.vector(point), self.shift)
 
     def scaled(self, factor: Number) -> Frame:
         """Return this frame with every length multiplied by `factor`."""
         return replace(
             self,
-            lateral=_times(factor, self.lateral),
-            across=_times(factor, self.across),
-            axis=_times(factor, self.axis),
+            lateral=times(factor, self.lateral),
+            across=times(factor, self.across),
+            axis=times(factor, self.axis),
             stretch=factor * self.stretch,
-            shift=_times(factor, self.shift),
+            shift=times(factor, self.shift),
         )
 
     def moved(self, shift: Exact) -> Frame:
         """Return this frame with the image of 0 at `shift`."""
         return replace(self, shift=shift)
-
-
-def _times(factor: Number, vector: Exact) -> Exact:
-    return (factor * vector[0], factor * vector[1], factor * vector[2])
 
 
 X: Exact = (1, 0, 0)
@@ -70,7 +66,7 @@ Z: Exact = (0, 0, 1)
 
 
 def _back(vector: Exact) -> Exact:
-    return _times(-1, vector)
+    return times(-1, vector)
 
 
 UPRIGHT = Frame("", "", X, Y, Z)

@@ -9,23 +9,22 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Literal
+from typing import Any, Literal, cast
 
 from raycert.cases.case import KnownEnd
 from raycert.cases.families.frames import Exact, Frame, Number
 from raycert.cases.formats import Format
 from raycert.cases.model import (
+    SOLIDS,
     Cylinder,
-    Difference,
     HalfSpace,
     InfiniteCylinder,
-    Intersection,
     Slab,
     Solid,
     Sphere,
-    Union,
     Vector,
 )
+from raycert.cases.vectors import along, minus
 
 Pairs = tuple[tuple[KnownEnd, KnownEnd], ...]
 MISS: Pairs = ()
@@ -54,11 +53,9 @@ class Body:
 
 
 NOUNS = {
-    "half_space": "a half-space",
-    "slab": "a slab",
-    "infinite_cylinder": "an infinite cylinder",
-    "cylinder": "a cylinder",
-}
+    "half_space": "a half-space", "slab": "a slab", "infinite_cylinder": "an infinite cylinder",
+    "cylinder": "a cylinder", "sphere": "a sphere",
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,11 +137,8 @@ def less(*of: Shape) -> Node:
     return Node("difference", of)
 
 
-MAKE: dict[Boolean, Callable[..., Node]] = {
-    "union": any_of,
-    "intersection": all_of,
-    "difference": less,
-}
+Make = Callable[..., Node]
+MAKE: dict[Boolean, Make] = {"union": any_of, "intersection": all_of, "difference": less}
 
 
 def moved(shape: Shape, by: Exact) -> Shape:
@@ -175,7 +169,7 @@ def ten(exponent: int) -> Fraction:
 
 def plus(a: Exact, b: Exact, times: Number = 1) -> Exact:
     """Return a + times b."""
-    return (a[0] + times * b[0], a[1] + times * b[1], a[2] + times * b[2])
+    return along(a, times, b)
 
 
 def times(factor: Number, a: Exact) -> Exact:
@@ -242,9 +236,10 @@ class Pen:
             case Ball(center, radius):
                 return Sphere(self.vector(frame.point(center)), self.real(frame.stretch * radius))
             case Node(kind=boolean, of=of):
-                return _BOOLEANS[boolean](tuple(self.solid(part, frame) for part in of))
+                tree: Any = SOLIDS[boolean]
+                return cast("Solid", tree(tuple(self.solid(part, frame) for part in of)))
             case Body("half_space", p, q):
-                normal = frame.vector(plus(q, p, -1))
+                normal = frame.vector(minus(q, p))
                 return HalfSpace(self.vector(frame.point(p)), self.vector(normal))
             case Body("slab", p, q):
                 return Slab(self.vector(frame.point(p)), self.vector(frame.point(q)))
@@ -252,10 +247,3 @@ class Pen:
                 make = InfiniteCylinder if kind == "infinite_cylinder" else Cylinder
                 ends = (self.vector(frame.point(p)), self.vector(frame.point(q)))
                 return make(*ends, self.real(frame.stretch * radius))
-
-
-_BOOLEANS: dict[Boolean, type[Union | Intersection | Difference]] = {
-    "union": Union,
-    "intersection": Intersection,
-    "difference": Difference,
-}
