@@ -196,9 +196,9 @@ def _print_legend() -> None:
     width = _screen() or 100
     for flag in FLAGS.values():
         click.secho(flag.name, bold=True)
-        for text in (flag.trouble, flag.effect, f"[{flag.reference}]"):
-            for line in wrap(text, width - 4):
-                click.echo(f"    {line}")
+        about = [line for text in (flag.trouble, flag.effect) for line in wrap(text, width - 4)]
+        for line in (*about, *flag.references):
+            click.echo(f"    {line}")
 
 
 @click.command(epilog=SHOW_EXAMPLES)

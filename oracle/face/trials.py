@@ -28,7 +28,10 @@ Intersect = Callable[[Solid, Ray], Iterable[tuple[float, float]]]
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Certification:
-    """What came of a certification; true where what was asked for is granted."""
+    """What came of a certification: true where all that was asked passes.
+
+    A part of the cases makes no certificate, and the certificate says so.
+    """
 
     result: Result
     words: tuple[str, ...]

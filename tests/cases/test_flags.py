@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from importlib.resources import files
+
 import pytest
 
 from raycert.cases.families.catalog import FAMILIES
@@ -27,4 +30,32 @@ def test_an_entry_says_trouble_effect_and_reference(flag: Flag) -> None:
     assert FLAGS[flag.name] is flag
     assert flag.trouble.endswith(".")
     assert flag.effect.endswith(".")
-    assert flag.reference
+    assert flag.references
+
+
+PUBLIC = re.compile(r"https://[\w.-]+/\S+|doi:10\.\d{4,}/\S+", re.ASCII)
+"""A page, or a paper by its DOI."""
+
+
+@pytest.mark.parametrize("flag", FLAGS.values(), ids=FLAGS)
+def test_anybody_can_follow_a_reference(flag: Flag) -> None:
+    for reference in flag.references:
+        assert is_public(reference), reference
+
+
+def is_public(reference: str) -> bool:
+    """Whether it is a page, a paper, or a file that ships with the package it is in."""
+    if PUBLIC.fullmatch(reference):
+        return True
+    folder, *rest = reference.split("/")
+    if folder not in ("cases", "oracle"):
+        return False
+    shipped = files(f"raycert.{folder}").joinpath(*rest)
+    return shipped.is_file()
+
+
+@pytest.mark.parametrize(
+    "reference", ["failures M7", "https://x", "doi:11/x", "cases/none.md", "issue 7"]
+)
+def test_what_nobody_can_follow_is_seen(reference: str) -> None:
+    assert not is_public(reference)

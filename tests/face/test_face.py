@@ -143,7 +143,7 @@ def test_a_function_of_the_prompt_is_certified_where_it_is() -> None:
     assert isinstance(granted, Certification)
     assert granted
     assert not granted.reasons
-    assert granted.certificate["granted"] is True
+    assert granted.certificate["granted"] is False  # a part of the cases makes no certificate
     assert not refused
     assert "ZeroDivisionError: no axis" in str(refused)
     with pytest.raises(ValueError, match="not in the corpus: no-such"):
