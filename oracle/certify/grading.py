@@ -112,7 +112,7 @@ def deciding(row: GoldenRow, judge: Judge) -> tuple[str, ...]:
     if not judge.tolerance:
         return row.decisive
     finer = tuple(level for level in LEVELS if level not in MEASURES)
-    return decisive(judge) if judge.scene.tolerance_is_fine() else finer
+    return decisive(judge) if judge.movable.tolerance_is_fine() else finer
 
 
 def _refusal(outcome: Reply | Failure) -> str | None:

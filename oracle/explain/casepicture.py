@@ -19,10 +19,10 @@ from raycert.oracle.reports.numberline import (
     PLOT,
     ROW,
     WIDTH,
-    Axis,
     CaseLists,
     Lane,
     Pairs,
+    Ruler,
     drawing,
     el,
     known,
@@ -43,7 +43,7 @@ from raycert.oracle.reports.picture import (
     ray_height,
 )
 from raycert.oracle.reports.reading import clean
-from raycert.oracle.reports.section import Section, View, views
+from raycert.oracle.reports.section import Slice, View, views
 
 ENDS = 8
 """At how many ends there is a close look."""
@@ -122,7 +122,7 @@ def _lined(view: View | None, all_lists: CaseLists, said: Sequence[AnswerLine]) 
     return caption, drawing(foot + 20, caption, *parts)
 
 
-def _scale(axis: Axis, foot: float) -> tuple[list[Element], str]:
+def _scale(axis: Ruler, foot: float) -> tuple[list[Element], str]:
     """Return the scale of t, and what a caption says of it: an offset, or a far power of ten."""
     span = axis.unit * PLOT
     bits = span.numerator.bit_length() - span.denominator.bit_length()
@@ -137,7 +137,7 @@ def _scale(axis: Axis, foot: float) -> tuple[list[Element], str]:
     return scale, f" - c, c = {float(base):.17g}" if base else ""
 
 
-def _inside(scene: Section, axis: Axis, exact: Pairs) -> Iterator[Element]:
+def _inside(scene: Slice, axis: Ruler, exact: Pairs) -> Iterator[Element]:
     """Yield the parts of the ray that are in the solid, a touch as a dot."""
     y = ray_height(scene)
     for enter, leave in exact:
@@ -194,7 +194,7 @@ def _close(
     origin = Fraction(end.nearest)
     unit = ulp(origin, fmt)
     reach = max([NARROW, *(abs(off) for off in offs if off is not None and abs(off) <= WIDE)])
-    axis = Axis(origin, reach * unit * Fraction(26, 10) / Fraction(PLOT))
+    axis = Ruler(origin, reach * unit * Fraction(26, 10) / Fraction(PLOT))
     shown = (*known(all_lists), *(one.lane for one in said))
     top = 4.0
     foot = top + len(shown) * ROW
@@ -224,7 +224,7 @@ def _off(
     return None if off is None or (one.point and abs(off) > WIDE) else off
 
 
-def _numbers(axis: Axis, origin: Fraction, unit: Fraction, foot: float) -> Iterator[Element]:
+def _numbers(axis: Ruler, origin: Fraction, unit: Fraction, foot: float) -> Iterator[Element]:
     """Yield a line for each number, as long as they are apart."""
     count = int(PLOT * axis.unit / unit / 2)
     if count > WIDE // 2:

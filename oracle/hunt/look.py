@@ -191,7 +191,7 @@ def deciding(judge: Judge) -> tuple[Level, ...]:
     So does a start on a face among numbers that are all 0, where no face moves: to keep or drop
     what is touched there is a convention.
     """
-    coarse = judge.tolerance and not judge.scene.tolerance_is_fine()
+    coarse = judge.tolerance and not judge.movable.tolerance_is_fine()
     if coarse or any(_is_pinned(leaf, judge.ray) for _, leaf in leaves(judge.solid)):
         return ("faithful", "exact")
     return decisive(judge)

@@ -47,7 +47,7 @@ class Claim(Protocol):
         """Return the largest distance of a number of it from the exact one, in ulps."""
 
     def keeps_touch(self, wanted: Numbers) -> bool | None:
-        """Tell whether it kept the touches that are the whole of a list; None if it cannot tell."""
+        """Whether it kept the touches that are the whole of a list; None if it cannot tell."""
 
 
 def claim(reply: Reply, hello: Hello) -> Claim:
@@ -98,7 +98,7 @@ class Listed:
         return judge.forward_error(self.pairs)
 
     def keeps_touch(self, wanted: Numbers) -> bool | None:
-        """Tell whether there is a pair."""
+        """Whether there is a pair."""
         return bool(self.pairs)
 
 
@@ -159,7 +159,7 @@ class First:
         return judge.ulps(self.t, judge.merged[end[0]][end[1]])
 
     def keeps_touch(self, wanted: Numbers) -> bool | None:
-        """Tell whether there is a hit. From inside, no hit may be the mode, not the convention."""
+        """Whether there is a hit. From inside, no hit may be the mode, not the convention."""
         if self.from_inside != "zero" and wanted and wanted[0][0] == 0:
             return None
         return self.t is not None
@@ -198,7 +198,7 @@ class YesNo:
         return 0.0 if self.hit == bool(judge.expected) else inf
 
     def keeps_touch(self, wanted: Numbers) -> bool | None:
-        """Tell whether it is a hit."""
+        """Whether it is a hit."""
         return self.hit
 
 

@@ -24,9 +24,9 @@ def decisive(judge: Judge) -> tuple[Level, ...]:
 
 
 def _decides(judge: Judge, level: Level) -> bool:
-    scene, measure, step = judge.scene, MEASURES[level], Step.at(LIMIT)
-    inner, outer = (scene.by_k_but_half_spaces(step, measure, sigma) for sigma in (-1, 1))
-    deep, wide = scene.by_constant(-1), scene.by_constant(1)
+    movable, measure, step = judge.movable, MEASURES[level], Step.at(LIMIT)
+    inner, outer = (movable.by_k_but_half_spaces(step, measure, sigma) for sigma in (-1, 1))
+    deep, wide = movable.by_constant(-1), movable.by_constant(1)
     return _keeps(judge.exact, deep, inner) and _adds_nothing(judge.exact, wide, outer)
 
 

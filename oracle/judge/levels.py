@@ -1,7 +1,7 @@
 """The judge: is an answer right, how far from right, and on which level. Pure, exact.
 
 An answer is a list of pairs of numbers of a format. It is compared as a set of t with the lists of
-`judge.moved`: inner_k <= answer <= outer_k, as far as the format can tell them apart (`told`).
+`judge.moved`: inner_k <= answer <= outer_k, as far as the format can tell them apart (`in_format`).
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from raycert.oracle.exact.intervals import Intervals, contains, expected, meets
 from raycert.oracle.exact.rounding import enclose, nearest
 from raycert.oracle.exact.surd import INFINITY, Surd, dyadic, sign_1
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.judge.moved import LAST_STEP, Measure, Scene, Step, moved_leaf
+from raycert.oracle.judge.moved import LAST_STEP, Measure, Movable, Step, moved_leaf
 
 MEASURES: dict[Level, Measure] = {"sound": "squared", "stable": "strict"}
 Enclosures = tuple[tuple[tuple[float, float], tuple[float, float]], ...]
@@ -34,7 +34,7 @@ def saturated(t: Surd, fmt: Format) -> Surd:
     return INFINITY if t > dyadic(fmt.largest) else t
 
 
-def told(t: Surd, up: bool, fmt: Format) -> Surd:
+def in_format(t: Surd, up: bool, fmt: Format) -> Surd:
     """Return a bound as far as the format can tell it: the benefit of the doubt is the answer's.
 
     Beyond the largest number there is only infinity; below the smallest normal number, where a
@@ -96,15 +96,16 @@ class Judge:
         return rounded.down, rounded.up
 
     @cached_property
-    def scene(self) -> Scene:
-        """Return the scene to move."""
-        return Scene(self.solid, self.ray, self.format, self.tolerance)
+    def movable(self) -> Movable:
+        """Return what is to be moved."""
+        return Movable(self.solid, self.ray, self.format, self.tolerance)
 
     def moved(self, step: int, measure: Measure, sigma: int) -> Intervals:
-        """Return the outer (sigma = 1) or inner (-1) list of a step of k, as far as told."""
-        moved = self.scene.by_k(Step.at(step), measure, sigma)
+        """Return the outer (sigma = 1) or inner (-1) list of a step of k, in the format."""
+        moved = self.movable.by_k(Step.at(step), measure, sigma)
         ends = (
-            (told(a, sigma < 0, self.format), told(b, sigma > 0, self.format)) for a, b in moved
+            (in_format(a, sigma < 0, self.format), in_format(b, sigma > 0, self.format))
+            for a, b in moved
         )
         return tuple((a, b) for a, b in ends if a <= b)
 
@@ -117,7 +118,7 @@ class Judge:
         if is_convex(self.solid):
             return (1,) * len(outer)
         lists = [
-            moved_leaf(leaf, self.scene.shift(leaf, Step.at(step), measure), 1, self.scene.grid)
+            moved_leaf(leaf, self.movable.shift(leaf, Step.at(step), measure), 1, self.movable.grid)
             for _, leaf in leaves(self.solid)
         ]
         return tuple(sum(any(meets(a, b) for b in own) for own in lists) for a in outer)
@@ -157,7 +158,7 @@ class Judge:
         return None
 
     def accepts(self, answer: Pairs, step: int, measure: Measure) -> bool:
-        """Tell whether inner <= answer <= outer for a step of k."""
+        """Whether inner <= answer <= outer for a step of k."""
         given = tuple((dyadic(a), dyadic(b)) for a, b in answer)
         return contains(self.moved(step, measure, 1), given) and contains(
             given, self.moved(step, measure, -1)
@@ -212,26 +213,22 @@ class Judge:
             ulp = max(frexp(below)[1] - self.format.precision, ulp)
         return enclose(_distance(dyadic(x), t, ulp), self.format).nearest
 
-    def faithful(self, answer: Pairs) -> bool:
-        """Tell whether every endpoint is one of the two numbers that enclose the exact one."""
-        if len(answer) != len(self.merged):
-            return False
-        return all(x in self._around(t) for x, t in self._ends(answer))
-
     def holds(self, level: Level, answer: Pairs) -> bool:
-        """Tell whether an answer is what a level asks for."""
+        """Whether an answer is what a level asks for."""
         if self.malformed(answer):
             return False
         match level:
             case "exact":
                 return tuple(answer) == self.expected
+            case "faithful" if len(answer) == len(self.merged):
+                return all(x in self._around(t) for x, t in self._ends(answer))
             case "faithful":
-                return self.faithful(answer)
+                return False
         return self.accept(level).fault(answer) is None
 
 
 def is_convex(solid: Solid) -> bool:
-    """Tell whether a solid is a primitive or an intersection of such: at most one interval."""
+    """Whether a solid is a primitive or an intersection of such: at most one interval."""
     if isinstance(solid, Intersection):
         return all(is_convex(part) for part in solid.of)
     return not isinstance(solid, Tree)

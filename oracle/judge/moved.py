@@ -191,7 +191,7 @@ def moved_leaf(leaf: Leaf, move: Shift, sigma: int, grid: Grid) -> Intervals:
 
 
 @dataclass(frozen=True)
-class Scene:
+class Movable:
     """A solid, a ray and a precision, ready to be moved; what does not depend on k, made once."""
 
     solid: Solid
@@ -221,7 +221,7 @@ class Scene:
         return Shift(d0, d1, *(k.times(s, bits + 2) for s in squares))
 
     def tolerance_is_fine(self) -> bool:
-        """Tell whether the declared tolerance is at most each leaf's c; half-spaces have none."""
+        """Whether the declared tolerance is at most each leaf's c; half-spaces have none."""
         tolerance = self.grid.scalar(self.tolerance)
         solid = [leaf for _, leaf in leaves(self.solid) if not isinstance(leaf, HalfSpace)]
         return all(tolerance <= self.constant(leaf).d0 for leaf in solid)

@@ -35,6 +35,7 @@ from raycert.cases.model import (
     Vector,
 )
 from raycert.cases.scene import Scene, frame, pixel_ray
+from raycert.cases.vectors import cross, dot, minus
 from raycert.oracle.judge.levels import Judge
 from raycert.oracle.judge.moved import Step
 
@@ -42,21 +43,21 @@ NEAR = 2.0**-20
 LAST = 48
 """The step of k = 2^20: up to it the cut tree has the lists of the whole."""
 STEEP = 0.01
-"""The sine between line and axis from which on their distance is told in doubles."""
+"""The sine between line and axis from which on their distance is found in doubles."""
 FEW = 1000
 """So few pixels are judged before other processes have started."""
 Answers = Sequence[Pairs]
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class PixelRow:
     """A row of pixels, and the lists answered for it."""
 
     row: int
     answers: Answers
 
 
-def row_errors(scene: Scene, given: Row) -> list[float]:
+def row_errors(scene: Scene, given: PixelRow) -> list[float]:
     """Return the strict backward error of each pixel in a row."""
     seen, solid = frame(scene.camera), scene.solid
     errors: list[float] = []
@@ -125,7 +126,7 @@ def cut(solid: Solid, ray: Ray) -> Solid | None:
 
 
 def _apart(leaf: Leaf, ray: Ray) -> bool:
-    """Tell whether a ray's line stays away from a leaf, by far more than any rounding."""
+    """Whether a ray's line stays away from a leaf, by far more than any rounding."""
     match leaf:
         case HalfSpace() | Slab():
             return False
@@ -135,26 +136,26 @@ def _apart(leaf: Leaf, ray: Ray) -> bool:
             return _beside(leaf, ray)
         case Cylinder(p, q, radius):
             middle = (p[0] / 2 + q[0] / 2, p[1] / 2 + q[1] / 2, p[2] / 2 + q[2] / 2)
-            return _beside(leaf, ray) or _passes(middle, radius + hypot(*_minus(q, p)) / 2, ray)
+            return _beside(leaf, ray) or _passes(middle, radius + hypot(*minus(q, p)) / 2, ray)
 
 
 def _passes(center: Vector, radius: float, ray: Ray) -> bool:
-    """Tell whether a line passes a point at more than the radius."""
-    y, v = _minus(ray.origin, center), ray.direction
+    """Whether a line passes a point at more than the radius."""
+    y, v = minus(ray.origin, center), ray.direction
     sizes = hypot(*y) + hypot(*center) + radius
-    area, speed = hypot(*_cross(v, y)), hypot(*v)
+    area, speed = hypot(*cross(v, y)), hypot(*v)
     return speed > 0 and inf > area / speed > radius + NEAR * sizes
 
 
 def _beside(leaf: InfiniteCylinder | Cylinder, ray: Ray) -> bool:
-    """Tell whether a line passes an axis at more than the radius; not where they are parallel."""
-    w, y, v = _minus(leaf.q, leaf.p), _minus(ray.origin, leaf.p), ray.direction
+    """Whether a line passes an axis at more than the radius; not where they are parallel."""
+    w, y, v = minus(leaf.q, leaf.p), minus(ray.origin, leaf.p), ray.direction
     sizes = hypot(*y) + hypot(*leaf.p) + hypot(*leaf.q) + leaf.radius
-    x = _cross(v, w)
+    x = cross(v, w)
     area = hypot(*x)
     if area <= STEEP * hypot(*v) * hypot(*w):
         return False
-    distance = abs(y[0] * x[0] + y[1] * x[1] + y[2] * x[2]) / area
+    distance = abs(dot(y, x)) / area
     return inf > distance > leaf.radius + NEAR * sizes
 
 
@@ -165,26 +166,10 @@ def every_row(scene: Scene, answers: Answers, processes: int = 2) -> Iterator[li
     from multiprocessing import get_context
 
     width, height = scene.size
-    rows = [Row(row, answers[row * width : (row + 1) * width]) for row in range(height)]
+    rows = [PixelRow(row, answers[row * width : (row + 1) * width]) for row in range(height)]
     work = partial(row_errors, scene)
     if processes < 2 or len(answers) < FEW:
         yield from map(work, rows)
         return
     with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
         yield from pool.map(work, rows, chunksize=2)
-
-
-def _between(p: Vector, q: Vector) -> Vector:
-    return (p[0] / 2 + q[0] / 2, p[1] / 2 + q[1] / 2, p[2] / 2 + q[2] / 2)
-
-
-def _minus(a: Vector, b: Vector) -> Vector:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )

@@ -9,19 +9,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from raycert.oracle.reports.reading import (
-    asked,
-    by_family,
-    clean,
-    count,
-    failing,
-    fault,
-    intervals,
-    said,
-    subject,
-    surprises,
-    verdict,
-)
+from raycert.oracle.reports import reading
+from raycert.oracle.reports.reading import clean, count, intervals
 
 Json = dict[str, Any]
 SHOWN = 20
@@ -31,7 +20,9 @@ def junit(certificate: Json) -> str:
     """Return the certificate as JUnit XML."""
     from junitparser import JUnitXml
 
-    xml = JUnitXml(f"raycert: {subject(certificate)} {verdict(certificate).headline}")
+    xml = JUnitXml(
+        f"raycert: {reading.subject(certificate)} {reading.verdict(certificate).headline}"
+    )
     for solid in certificate["solids"]:
         xml.add_testsuite(_solid(certificate, solid))
     for solid in certificate["not_tested"]["solids"]:
@@ -49,7 +40,7 @@ def _solid(certificate: Json, solid: str) -> Any:
     suite = TestSuite(f"raycert.{solid}")
     for name, value in _properties(certificate).items():
         suite.add_property(name, value)
-    failures = by_family(failing(certificate))
+    failures = reading.by_family(reading.failing(certificate))
     for family in certificate["families"]:
         if family["solid"] == solid:
             found = failures.get((solid, family["family"]), [])
@@ -97,8 +88,8 @@ def _listed(certificate: Json, failures: list[Json]) -> str:
         lines += [
             failed["id"],
             f"  {failed['why']}",
-            f"  {fault(certificate, failed)}",
-            f"  answer   {said(failed)}",
+            f"  {reading.fault(certificate, failed)}",
+            f"  answer   {reading.said(failed)}",
             f"  expected {intervals(failed['expected'])}",
             f"  repeat   {clean(failed['reproduce'], 1000)}",
         ]
@@ -121,8 +112,8 @@ def _run(certificate: Json) -> Any:
     """Return what no family can say: the convention, the expectations, an interruption."""
     from junitparser import Failure, Skipped, TestCase, TestSuite
 
-    suite, found = TestSuite("raycert.run"), verdict(certificate)
-    test = TestCase(f"granted: {asked(certificate)}", "raycert.run")
+    suite, found = TestSuite("raycert.run"), reading.verdict(certificate)
+    test = TestCase(f"granted: {reading.asked(certificate)}", "raycert.run")
     if found.state in ("refused", "interrupted"):
         text = "\n".join((*found.reasons, f"repeat   {clean(certificate['reproduce'], 1000)}"))
         test.result = [_result(Failure(found.headline, found.state), text)]
@@ -131,7 +122,7 @@ def _run(certificate: Json) -> Any:
     suite.add_testcase(test)
     if certificate["expectations"] is not None:
         test = TestCase("expectations", "raycert.run")
-        if lines := surprises(certificate):
+        if lines := reading.surprises(certificate):
             test.result = [_result(Failure(lines[0], "expectations"), "\n".join(lines))]
         suite.add_testcase(test)
     return suite

@@ -9,22 +9,8 @@ from html import escape
 from typing import Any
 
 from raycert.cases.levels import LEVELS
-from raycert.oracle.reports.reading import (
-    by_family,
-    clean,
-    count,
-    failing,
-    fault,
-    intervals,
-    left_out,
-    likely,
-    mark,
-    notes,
-    said,
-    subject,
-    verdict,
-    windows,
-)
+from raycert.oracle.reports import reading
+from raycert.oracle.reports.reading import clean, count, intervals
 
 Json = dict[str, Any]
 FAMILIES, ROWS = 20, 5
@@ -35,13 +21,13 @@ STATES = {"granted": "\u2705", "part": "\u2705", "accepted": "\u26a0\ufe0f"}
 
 def markdown(certificate: Json) -> str:
     """Return the certificate as Markdown."""
-    found = verdict(certificate)
+    found = reading.verdict(certificate)
     lines = [
-        f"### {STATES.get(found.state, MARKS['failed'])} {code(subject(certificate))} "
+        f"### {STATES.get(found.state, MARKS['failed'])} {code(reading.subject(certificate))} "
         f"{found.headline}",
         "",
         *(f"- {code(reason)}" for reason in found.reasons),
-        *(f"- **likely fault:** {code(line)}" for line in likely(certificate)),
+        *(f"- **likely fault:** {code(line)}" for line in reading.likely(certificate)),
         "",
         *_solids(certificate),
         "",
@@ -86,11 +72,11 @@ def _solids(certificate: Json) -> list[str]:
 def _cell(tally: Json) -> str:
     of = tally["passed"] + tally["failed"]
     text = {"failed": f"{tally['failed']} of {of} fail", "passed": str(of), "open": "no row"}
-    return f"{MARKS[mark(tally)]} {text[mark(tally)]}"
+    return f"{MARKS[reading.mark(tally)]} {text[reading.mark(tally)]}"
 
 
 def _failures(certificate: Json) -> list[str]:
-    failures = by_family(failing(certificate))
+    failures = reading.by_family(reading.failing(certificate))
     if not failures:
         return []
     total = sum(map(len, failures.values()))
@@ -111,8 +97,8 @@ def _failures(certificate: Json) -> list[str]:
 def _row(certificate: Json, failed: Json) -> list[str]:
     return [
         f"- {code(failed['id'])}: {escape(clean(failed['why']))}",
-        f"  - {code(fault(certificate, failed))}",
-        f"  - answer {code(said(failed))}, expected {code(intervals(failed['expected']))}",
+        f"  - {code(reading.fault(certificate, failed))}",
+        f"  - answer {code(reading.said(failed))}, expected {code(intervals(failed['expected']))}",
         f"  - {code(failed['reproduce'])}",
     ]
 
@@ -125,9 +111,9 @@ def _small(certificate: Json) -> list[str]:
         f"{tool['name']} {tool['version']}, {certificate['run']['seconds']:.1f} s"
     )
     lines = [
-        *left_out(certificate),
-        *windows(certificate),
-        *notes(certificate),
+        *reading.left_out(certificate),
+        *reading.windows(certificate),
+        *reading.notes(certificate),
         f"repeat: {certificate['reproduce']}",
     ]
     return [

@@ -107,7 +107,7 @@ def _read(digits: str) -> Number:
 
 
 @dataclass(frozen=True, slots=True)
-class Axis:
+class Ruler:
     """Where a t is on a drawing: `middle` is in the middle, `unit` of t is a pixel."""
 
     middle: Fraction
@@ -127,12 +127,12 @@ class Axis:
         return GUTTER <= self.x(t) <= WIDTH
 
 
-def whole(lists: CaseLists) -> Axis:
+def whole(lists: CaseLists) -> Ruler:
     """Return an axis that shows every list from end to end."""
     ends = lists.finite(lists.exact) or lists.finite(lists.said) or [Fraction(0)]
     low, high = min(ends), max(ends)
     span = high - low or abs(high) or Fraction(1)
-    return Axis((low + high) / 2, 2 * span / Fraction(PLOT))
+    return Ruler((low + high) / 2, 2 * span / Fraction(PLOT))
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,7 +144,7 @@ class Lane:
     silence: str = ""
 
 
-def bars(lists: CaseLists, axis: Axis, top: float, silence: str) -> Iterator[Element]:
+def bars(lists: CaseLists, axis: Ruler, top: float, silence: str) -> Iterator[Element]:
     """Yield the three lines: accepted, exact, answered. `silence` is said where there is no bar."""
     yield from lanes(
         (*known(lists), Lane("answered", ((lists.said or (), "said"),), silence)), axis, top
@@ -157,7 +157,7 @@ def known(lists: CaseLists) -> tuple[Lane, Lane]:
     return accepted, Lane("exact", ((lists.exact, "exact"),))
 
 
-def lanes(drawn: Iterable[Lane], axis: Axis, top: float) -> Iterator[Element]:
+def lanes(drawn: Iterable[Lane], axis: Ruler, top: float) -> Iterator[Element]:
     """Yield lines, one below the other."""
     for i, lane in enumerate(drawn):
         y = top + ROW * i
@@ -169,7 +169,7 @@ def lanes(drawn: Iterable[Lane], axis: Axis, top: float) -> Iterator[Element]:
             yield label(GUTTER + 8, y + BAR - 1, lane.silence, "name")
 
 
-def _bar(pairs: Pairs, axis: Axis, y: float, kind: str) -> Iterator[Element]:
+def _bar(pairs: Pairs, axis: Ruler, y: float, kind: str) -> Iterator[Element]:
     for a, b in pairs:
         left, right = axis.x(a), axis.x(b)
         if right < GUTTER or left > WIDTH:
@@ -188,7 +188,7 @@ def _diamond(x: float, y: float) -> str:
     return f"M{x - r:.1f},{y:.1f} {x:.1f},{y - r:.1f} {x + r:.1f},{y:.1f} {x:.1f},{y + r:.1f}Z"
 
 
-def _caps(axis: Axis, pair: tuple[Number, Number], y: float, kind: str) -> Iterator[Element]:
+def _caps(axis: Ruler, pair: tuple[Number, Number], y: float, kind: str) -> Iterator[Element]:
     """Yield a stroke at each end that is on the drawing: an end that is not runs on."""
     for t in pair:
         if axis.shows(t):
@@ -197,7 +197,7 @@ def _caps(axis: Axis, pair: tuple[Number, Number], y: float, kind: str) -> Itera
             )
 
 
-def ticks(axis: Axis, origin: Fraction, unit: Fraction, y: float) -> Iterator[Element]:
+def ticks(axis: Ruler, origin: Fraction, unit: Fraction, y: float) -> Iterator[Element]:
     """Yield a scale in units from an origin, whole and round."""
     span = float(PLOT * axis.unit / unit)
     step = round_up(span / 6)
@@ -223,13 +223,13 @@ def round_up(x: float) -> float:
 class Close:
     """A look at one end: `origin` is the number nearest to it, `ulp` the unit there."""
 
-    axis: Axis
+    axis: Ruler
     origin: Fraction
     ulp: Fraction
     off: Fraction | None
     """How far the answer's end is from there, in ulps; None where there is no answer's end."""
 
-    def unseen(self, lists: CaseLists, axis: Axis) -> bool:
+    def unseen(self, lists: CaseLists, axis: Ruler) -> bool:
         """Tell whether it shows what the axis of the whole is too coarse for.
 
         An end that is off by less than a few pixels, or an interval as short that was not met.
@@ -267,7 +267,7 @@ def close(lists: CaseLists, fmt: Format) -> Close | None:
     reach = max([Fraction(2), *(abs(x - t) / unit for x in near if x is not None)])
     if off is not None and abs(off) < 40 * reach:
         reach = max(reach, abs(off))
-    return Close(Axis(origin, reach * unit * Fraction(26, 10) / Fraction(PLOT)), origin, unit, off)
+    return Close(Ruler(origin, reach * unit * Fraction(26, 10) / Fraction(PLOT)), origin, unit, off)
 
 
 def _ends(

@@ -12,29 +12,11 @@ from typing import Any
 
 from raycert.cases.levels import LEVELS
 from raycert.cases.table import PROBLEM_1, PROBLEM_2
+from raycert.oracle.reports import reading
 from raycert.oracle.reports.junit import junit
 from raycert.oracle.reports.markdown import markdown
 from raycert.oracle.reports.picture import pictures
-from raycert.oracle.reports.reading import (
-    asked,
-    by_family,
-    clean,
-    count,
-    failing,
-    family_of,
-    fault,
-    intervals,
-    left_out,
-    levels_asked,
-    likely,
-    mark,
-    notes,
-    number,
-    said,
-    subject,
-    verdict,
-    windows,
-)
+from raycert.oracle.reports.reading import clean, count, intervals, number
 
 Json = dict[str, Any]
 LISTED, AT_MOST = 100, 4000
@@ -48,7 +30,7 @@ def page(certificate: Json) -> str:
     return render(
         "page.html",
         ("page.css",),
-        {"clean": clean, "count": count, "mark": mark},
+        {"clean": clean, "count": count, "mark": reading.mark},
         c=certificate,
         levels=LEVELS,
         **_verdict(certificate),
@@ -65,14 +47,14 @@ def page(certificate: Json) -> str:
 
 def _verdict(certificate: Json) -> Json:
     return {
-        "verdict": verdict(certificate),
-        "asked": asked(certificate),
-        "within": levels_asked(certificate),
-        "subject": subject(certificate),
-        "likely": likely(certificate),
-        "notes": notes(certificate),
-        "left_out": left_out(certificate),
-        "windows": windows(certificate),
+        "verdict": reading.verdict(certificate),
+        "asked": reading.asked(certificate),
+        "within": reading.levels_asked(certificate),
+        "subject": reading.subject(certificate),
+        "likely": reading.likely(certificate),
+        "notes": reading.notes(certificate),
+        "left_out": reading.left_out(certificate),
+        "windows": reading.windows(certificate),
         "reproduce": clean(certificate["reproduce"], 2000),
         "began": _moment(certificate["run"]["began"]),
     }
@@ -85,7 +67,7 @@ def _moment(began: str | None) -> str:
 
 def _matrix(certificate: Json) -> Json:
     """Return the families, those in which something asked fails before the others."""
-    within = levels_asked(certificate)
+    within = reading.levels_asked(certificate)
 
     def fails(family: Json) -> int:
         return sum(1 for level in within if family["levels"][level]["failed"])
@@ -113,12 +95,12 @@ def _worst(certificate: Json, shown: Json) -> Json:
     failed = level in shown["faults"]
     return {
         "id": shown["id"],
-        "family": family_of(shown["id"]),
+        "family": reading.family_of(shown["id"]),
         "solid": shown["solid"]["type"].replace("_", " "),
         "kind": shown["kind"],
         "why": clean(shown["why"]),
-        "fault": fault(certificate, shown, 300) if failed else "",
-        "answer": clean(said(shown), 400),
+        "fault": reading.fault(certificate, shown, 300) if failed else "",
+        "answer": clean(reading.said(shown), 400),
         "expected": intervals(shown["expected"]),
         "errors": [number(shown[name]) for name in ("strict_k", "squared_k", "ulps")],
         "reproduce": clean(shown["reproduce"], 2000),
@@ -128,14 +110,14 @@ def _worst(certificate: Json, shown: Json) -> Json:
 
 def _listed(certificate: Json) -> list[Json]:
     """Return the failing rows by family, as many as a page can hold."""
-    failures = by_family(failing(certificate))
+    failures = reading.by_family(reading.failing(certificate))
     most = min(LISTED, AT_MOST // max(len(failures), 1))
     return [
         {
             "solid": solid,
             "family": family,
             "rows": [
-                (clean(row["id"].partition("/")[2], 80), fault(certificate, row, 110))
+                (clean(row["id"].partition("/")[2], 80), reading.fault(certificate, row, 110))
                 for row in rows[:most]
             ],
             "count": len(rows),
@@ -148,11 +130,11 @@ def _listed(certificate: Json) -> list[Json]:
 def _not_decisive(certificate: Json) -> list[tuple[str, int, list[str]]]:
     """Return, for each level asked, how many rows do not decide it, and of which families."""
     found = []
-    for level in levels_asked(certificate):
+    for level in reading.levels_asked(certificate):
         ids = certificate["not_decisive"].get(level, {"rows": []})["rows"]
         families: dict[str, int] = {}
         for id in ids:
-            families[family_of(id)] = families.get(family_of(id), 0) + 1
+            families[reading.family_of(id)] = families.get(reading.family_of(id), 0) + 1
         if ids:
             found.append((level, len(ids), [f"{name} {n}" for name, n in families.items()]))
     return found
@@ -163,13 +145,13 @@ def _made(certificate: Json) -> list[tuple[str, str]]:
     declared, corpus, tool = (certificate[name] for name in ("subject", "corpus", "tool"))
     made, run, fresh = (certificate[name] for name in ("environment", "run", "fresh"))
     values = {
-        "subject": subject(certificate, 200),
+        "subject": reading.subject(certificate, 200),
         "command": clean(" ".join(declared["command"]), 500),
         "declares": f"{declared['answers']}, {declared['precision']}, "
         f"{clean(declared['convention'])}, numbers as {declared['numbers']}, "
         f"tolerance {declared['tolerance']:g}",
         "solids": ", ".join(declared["solids"]),
-        "asked": asked(certificate),
+        "asked": reading.asked(certificate),
         "corpus": f"{corpus['version']}, {corpus['precision']}, {corpus['rows']:,} rows",
         "fresh": "" if fresh is None else f"{fresh['rows']:,} cases of seed {fresh['seed']}",
         "manifest": corpus["manifest_sha256"],

@@ -17,9 +17,9 @@ from raycert.oracle.reports.numberline import (
     PLOT,
     ROW,
     WIDTH,
-    Axis,
     CaseLists,
     Close,
+    Ruler,
     bars,
     close,
     drawing,
@@ -31,7 +31,7 @@ from raycert.oracle.reports.numberline import (
     whole,
 )
 from raycert.oracle.reports.reading import clean
-from raycert.oracle.reports.section import ASPECT, Section, section
+from raycert.oracle.reports.section import ASPECT, Slice, section
 
 Json = dict[str, Any]
 TALL = PLOT * ASPECT
@@ -70,12 +70,12 @@ def _silence(shown: Json) -> str:
     return clean(next(iter(shown["faults"].values()), "nothing"), 44)
 
 
-def axis_of(view: Section) -> Axis:
+def axis_of(view: Slice) -> Ruler:
     """Return the axis of t under a picture: the ray is its line."""
-    return Axis(view.middle, Fraction(2 * view.half / PLOT) / view.speed)
+    return Ruler(view.middle, Fraction(2 * view.half / PLOT) / view.speed)
 
 
-def _whole(view: Section | None, lists: CaseLists, axis: Axis, silence: str) -> tuple[str, str]:
+def _whole(view: Slice | None, lists: CaseLists, axis: Ruler, silence: str) -> tuple[str, str]:
     top = 4.0 if view is None else TALL + GAP
     ends = lists.finite(lists.exact)
     parts = [] if view is None else [*drawn(view, axis), *guides(ends, axis, top + ROW)]
@@ -90,7 +90,7 @@ def _whole(view: Section | None, lists: CaseLists, axis: Axis, silence: str) -> 
     return caption, drawing(foot + 20, caption, *parts)
 
 
-def base_of(axis: Axis) -> Fraction:
+def base_of(axis: Ruler) -> Fraction:
     """Return what is taken off the labels: 0, or a round t near the middle if that is far away."""
     span = axis.unit * PLOT
     if abs(axis.middle) < 5000 * span:
@@ -99,7 +99,7 @@ def base_of(axis: Axis) -> Fraction:
     return Fraction(float(round(axis.middle / power) * power))
 
 
-def drawn(view: Section, axis: Axis, still: bool = False) -> Iterator[Element]:
+def drawn(view: Slice, axis: Ruler, still: bool = False) -> Iterator[Element]:
     """Yield the solid, its leaves' outlines and the ray, in the frame of a picture.
 
     A `still` ray is its start alone.
@@ -132,12 +132,12 @@ def drawn(view: Section, axis: Axis, still: bool = False) -> Iterator[Element]:
         yield label(GUTTER + 6, height - 6, "\u2190 start", "name")
 
 
-def ray_height(view: Section) -> float:
+def ray_height(view: Slice) -> float:
     """Return the pixel at which the ray runs."""
     return TALL / 2 + view.rise * PLOT / (2 * view.half)
 
 
-def guides(ends: Iterable[Fraction], axis: Axis, foot: float) -> Iterator[Element]:
+def guides(ends: Iterable[Fraction], axis: Ruler, foot: float) -> Iterator[Element]:
     """Yield a line from each exact end on the ray down to the intervals."""
     for t in ends:
         if axis.shows(t):

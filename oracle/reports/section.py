@@ -154,7 +154,7 @@ Choose = Callable[[Leaf, Vector], list[ViewPlane]]
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class Slice:
     """A picture's contents. Lengths are scaled; the middle of the picture is t = `middle`."""
 
     solid: Solid
@@ -222,14 +222,14 @@ class Section:
         return met
 
 
-def section(solid: Solid, ray: Ray, ends: Sequence[Fraction]) -> Section | None:
+def section(solid: Solid, ray: Ray, ends: Sequence[Fraction]) -> Slice | None:
     """Return what to draw; `ends` are the finite endpoints. None for what no picture can hold."""
     return section_of(solid, exact(ray.origin), exact(ray.direction), ends, planes)
 
 
 def section_of(
     solid: Solid, origin: Exact, direction: Exact, ends: Sequence[Fraction], choose: Choose
-) -> Section | None:
+) -> Slice | None:
     """Return what to draw of an exact ray; `choose` tells in which planes to look."""
     try:
         return _section(solid, origin, direction, ends, choose)
@@ -239,7 +239,7 @@ def section_of(
 
 def _section(
     solid: Solid, origin: Exact, direction: Exact, ends: Sequence[Fraction], choose: Choose
-) -> Section | None:
+) -> Slice | None:
     leaf = pivot(solid)
     middle = (min(ends) + max(ends)) / 2 if ends else _closest(leaf, origin, direction)
     here = along(origin, middle, direction)
@@ -266,7 +266,7 @@ def _view(
     middle: Fraction,
     speed: Fraction,
     reach: float,
-) -> Section:
+) -> Slice:
     middle_of = anchor(leaf)
     height = dot(middle_of, plane.up)
     size = min(_size(part, reach) for _, part in leaves(solid))
@@ -276,7 +276,7 @@ def _view(
         behind = min(abs(dot(middle_of, ahead)) + size, FARTHEST * size)
     half = max(1.25 * max(reach, behind), 1.3 * size / ASPECT)
     room = 0.75 * half * ASPECT
-    return Section(solid, ahead, plane, middle, speed, half, max(-room, min(height, room)))
+    return Slice(solid, ahead, plane, middle, speed, half, max(-room, min(height, room)))
 
 
 def pivot(solid: Solid) -> Leaf:
@@ -366,7 +366,7 @@ class View:
     """A view: its name, its contents, and whether the ray stays at its start there."""
 
     name: str
-    section: Section
+    section: Slice
     still: bool = False
 
 

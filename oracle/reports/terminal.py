@@ -9,20 +9,8 @@ from rich.table import Table
 from rich.text import Text
 
 from raycert.cases.levels import LEVELS
-from raycert.oracle.reports.reading import (
-    clean,
-    failing,
-    fault,
-    intervals,
-    left_out,
-    likely,
-    notes,
-    number,
-    said,
-    subject,
-    verdict,
-    windows,
-)
+from raycert.oracle.reports import reading
+from raycert.oracle.reports.reading import clean, intervals, number
 
 Json = dict[str, Any]
 SHOWN = 8
@@ -116,18 +104,20 @@ def _fails(levels: Json) -> Text:
 
 
 def _notes(certificate: Json) -> list[str]:
-    told = [f"note: {note}" for note in notes(certificate)]
-    found = [f"likely fault: {line}" for line in likely(certificate)]
-    return ["", *left_out(certificate), *windows(certificate), *told, *found]
+    told = [f"note: {note}" for note in reading.notes(certificate)]
+    found = [f"likely fault: {line}" for line in reading.likely(certificate)]
+    return ["", *reading.left_out(certificate), *reading.windows(certificate), *told, *found]
 
 
 def _failures(certificate: Json, console: Console) -> None:
-    found = failing(certificate)
+    found = reading.failing(certificate)
     for failed in found[:SHOWN]:
         console.print(Text(f"\n{failed['id']}", "bold red"))
         console.print(Text(f"  {clean(failed['why'])}"))
-        console.print(Text(f"  {certificate['asked']['level']}: {fault(certificate, failed)}"))
-        console.print(Text(f"  answer   {said(failed)}"))
+        console.print(
+            Text(f"  {certificate['asked']['level']}: {reading.fault(certificate, failed)}")
+        )
+        console.print(Text(f"  answer   {reading.said(failed)}"))
         console.print(Text(f"  expected {intervals(failed['expected'])}"))
         repeat = clean(failed["reproduce"], 2000)
         console.print(Text(f"  repeat   {repeat}"), soft_wrap=True)
@@ -136,7 +126,9 @@ def _failures(certificate: Json, console: Console) -> None:
 
 
 def _verdict(certificate: Json) -> Text:
-    found = verdict(certificate)
+    found = reading.verdict(certificate)
     rows = f": {certificate['tested']} rows of corpus {certificate['corpus']['version']}"
     reasons = "".join(f"\n  {reason}" for reason in found.reasons)
-    return Text(f"\n{subject(certificate)} {found.headline}{rows}{reasons}", STYLES[found.state])
+    return Text(
+        f"\n{reading.subject(certificate)} {found.headline}{rows}{reasons}", STYLES[found.state]
+    )

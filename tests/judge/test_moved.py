@@ -29,7 +29,7 @@ from raycert.oracle.exact.grid import dyadics
 from raycert.oracle.exact.intervals import Intervals, contains
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.levels import LIMIT
-from raycert.oracle.judge.moved import LAST_STEP, REFINE, Scene, Shift, Step, moved_leaf, norm
+from raycert.oracle.judge.moved import LAST_STEP, REFINE, Movable, Shift, Step, moved_leaf, norm
 from shared.definition import at, dot, exact, inside, member, minus, on_a_surface, samples
 from shared.grid import leaves, rays, solids
 
@@ -137,7 +137,7 @@ def test_a_moved_leaf_is_what_its_definition_says(
     more: set[Fraction],
 ) -> None:
     k = Step.at(step)
-    moved = Scene(leaf, ray, fmt, tolerance).by_k(k, measure, sigma)  # type: ignore[arg-type]
+    moved = Movable(leaf, ray, fmt, tolerance).by_k(k, measure, sigma)  # type: ignore[arg-type]
     ku = Fraction(float(k)) * unit(fmt)
     for t in samples(moved) | samples(trace(leaf, ray).intervals) | more:
         found = truth(leaf, ray, t, ku, measure, sigma, Fraction(tolerance))
@@ -152,7 +152,7 @@ def test_a_moved_tree_is_what_its_moved_leaves_say(
     """Away from the ends of the moved leaves. These k move faces by 2^-40 to 2^-8 and more."""
     k = Step.at(step)
     ku = Fraction(float(k)) * unit(BINARY64)
-    scene = Scene(solid, ray, BINARY64)
+    scene = Movable(solid, ray, BINARY64)
     moved = scene.by_k(k, measure, sigma)  # type: ignore[arg-type]
 
     def member_of(part: Solid, t: Fraction, way: int) -> bool:
@@ -186,7 +186,7 @@ def test_lists_are_monotone_in_k(
     solid: Solid, ray: Ray, one: int, two: int, fmt: Format, measure: str
 ) -> None:
     """The inner list shrinks, the outer one grows, and the exact one lies between."""
-    scene = Scene(solid, ray, fmt)
+    scene = Movable(solid, ray, fmt)
     low, high = (Step.at(i) for i in sorted((one, two)))
     lists: list[Intervals] = [
         scene.by_k(high, measure, -1),  # type: ignore[arg-type]
@@ -201,20 +201,20 @@ def test_lists_are_monotone_in_k(
 
 @given(solids, rays, steps, formats)
 def test_the_squared_measure_allows_more(solid: Solid, ray: Ray, step: int, fmt: Format) -> None:
-    scene, k = Scene(solid, ray, fmt), Step.at(step)
+    scene, k = Movable(solid, ray, fmt), Step.at(step)
     assert contains(scene.by_k(k, "squared", 1), scene.by_k(k, "strict", 1))
     assert contains(scene.by_k(k, "strict", -1), scene.by_k(k, "squared", -1))
 
 
 @given(leaves, rays, sigmas)
 def test_moved_by_zero_is_the_exact_list(leaf: Solid, ray: Ray, sigma: int) -> None:
-    grid = Scene(leaf, ray, BINARY64).grid
+    grid = Movable(leaf, ray, BINARY64).grid
     assert moved_leaf(leaf, Shift(0), sigma, grid) == trace(leaf, ray).intervals  # type: ignore[arg-type]
 
 
 @given(leaves, rays, sigmas)
 def test_the_constant_move_is_an_eighth_of_the_leaf(leaf: Solid, ray: Ray, sigma: int) -> None:
-    moved = Scene(leaf, ray, BINARY64).by_constant(sigma)
+    moved = Movable(leaf, ray, BINARY64).by_constant(sigma)
     thickness: list[Fraction] = []
     if not isinstance(leaf, HalfSpace | Slab):
         thickness.append(Fraction(leaf.radius))
@@ -253,10 +253,10 @@ def test_a_needle_vanishes_inward_and_a_miss_is_hit_outward() -> None:
     needle = Cylinder((0, 0, 0), (0, 0, 2.0**60), 1)
     ray = Ray((-(2.0**10), 0, 2.0**59), (1, 0, 0))
     assert trace(needle, ray).intervals
-    assert Scene(needle, ray, BINARY64).by_k(Step.at(LIMIT), "strict", -1) == ()
+    assert Movable(needle, ray, BINARY64).by_k(Step.at(LIMIT), "strict", -1) == ()
     miss = Ray((-3, 1 + 2.0**-50, 1), (1, 0, 0))
     assert trace(CAN, miss).intervals == ()
-    scene = Scene(CAN, miss, BINARY64)
+    scene = Movable(CAN, miss, BINARY64)
     assert len(scene.by_k(Step.at(LIMIT), "strict", 1)) == 1
     assert scene.by_k(Step.at(0), "strict", 1) == ()
 
@@ -265,7 +265,7 @@ def test_a_leaf_may_fall_into_two_intervals_under_the_squared_measure_only() -> 
     """The ray leaves the wall slowly; what it is allowed grows with t^2, and catches up."""
     tube = InfiniteCylinder((0, 0, 0), (0, 0, 1), 1)
     ray = Ray((-1, 0, 0), (-1, 0, 2.0**26))
-    scene = Scene(tube, ray, BINARY64)
+    scene = Movable(tube, ray, BINARY64)
     lists = [
         scene.by_k(Step.at(i), measure, 1)  # type: ignore[arg-type]
         for i in range(LAST_STEP)
@@ -278,7 +278,7 @@ def test_a_leaf_may_fall_into_two_intervals_under_the_squared_measure_only() -> 
 def test_half_spaces_can_be_left_where_they_are() -> None:
     tree = Intersection((HalfSpace((0, 0, 1), (0, 0, 1)), CAN))
     ray = Ray((0, 0, -3), (0, 0, 1))
-    scene, k = Scene(tree, ray, BINARY64), Step.at(60)
+    scene, k = Movable(tree, ray, BINARY64), Step.at(60)
     stays = scene.by_k_but_half_spaces(k, "strict", 1)
     assert stays[0][1] == trace(tree, ray).intervals[0][1]
     assert stays[0][0] == scene.by_k(k, "strict", 1)[0][0] < trace(tree, ray).intervals[0][0]

@@ -20,8 +20,8 @@ from raycert.oracle.reports.numberline import (
     MIDDLE,
     PLOT,
     WIDTH,
-    Axis,
     CaseLists,
+    Ruler,
     close,
     drawing,
     el,
@@ -29,7 +29,7 @@ from raycert.oracle.reports.numberline import (
     whole,
 )
 from raycert.oracle.reports.picture import pictures
-from raycert.oracle.reports.section import Section, section
+from raycert.oracle.reports.section import Slice, section
 
 PIXEL = 1 / PLOT
 Pairs = list[tuple[float, float]]
@@ -44,14 +44,14 @@ def ends(row: GoldenRow) -> list[Fraction]:
     ]
 
 
-def views() -> Iterator[tuple[GoldenRow, Section]]:
+def views() -> Iterator[tuple[GoldenRow, Slice]]:
     for row in made_up.sample():
         view = section(row.solid, row.ray, ends(row))
         if view is not None:
             yield row, view
 
 
-def drawn(view: Section, height: float) -> list[tuple[float, float]]:
+def drawn(view: Slice, height: float) -> list[tuple[float, float]]:
     """Return where a line along the ray is inside the drawn solid, as the eye sees it.
 
     Ahead of the start; gaps and slivers of less than half a pixel are not seen.
@@ -66,7 +66,7 @@ def drawn(view: Section, height: float) -> list[tuple[float, float]]:
     return seen
 
 
-def wanted(row: GoldenRow, view: Section) -> list[tuple[float, float]]:
+def wanted(row: GoldenRow, view: Slice) -> list[tuple[float, float]]:
     """Return the exact list on the scale of the picture."""
 
     def place(digits: str) -> float:
@@ -191,8 +191,8 @@ def test_numbers_without_measure_are_drawn_too() -> None:
     axis = whole(lists)
     assert axis.x(inf) > WIDTH > axis.x(Fraction(0))
     assert one(("1", "2"), [["nan", "0x1.0p+0"]]).said is None
-    assert Axis(Fraction(0), Fraction(1)).x(Fraction(10**400)) > WIDTH
-    assert Axis(Fraction(5), Fraction(1)).x(Fraction(5)) == MIDDLE
+    assert Ruler(Fraction(0), Fraction(1)).x(Fraction(10**400)) > WIDTH
+    assert Ruler(Fraction(5), Fraction(1)).x(Fraction(5)) == MIDDLE
 
 
 @pytest.mark.parametrize(("x", "step"), [(1, 1), (1.1, 2), (3, 5), (6, 10), (0.03, 0.05)])
