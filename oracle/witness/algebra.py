@@ -33,31 +33,24 @@ class Vec:
         return cls(*map(number, vector))
 
     def __add__(self, other: Vec) -> Vec:
-        """Return the sum."""
         return Vec(self.x + other.x, self.y + other.y, self.z + other.z)
 
     def __sub__(self, other: Vec) -> Vec:
-        """Return the difference."""
         return Vec(self.x - other.x, self.y - other.y, self.z - other.z)
 
     def __neg__(self) -> Vec:
-        """Return the negative."""
         return Vec(-self.x, -self.y, -self.z)
 
     def __rmul__(self, factor: Any) -> Vec:
-        """Return a multiple."""
         return Vec(factor * self.x, factor * self.y, factor * self.z)
 
     def __truediv__(self, divisor: Any) -> Vec:
-        """Return the vector over a number."""
         return Vec(self.x / divisor, self.y / divisor, self.z / divisor)
 
     def __matmul__(self, other: Vec) -> Any:
-        """Return the scalar product."""
         return self.x * other.x + self.y * other.y + self.z * other.z
 
     def __xor__(self, other: Vec) -> Vec:
-        """Return the vector product."""
         return Vec(
             self.y * other.z - self.z * other.y,
             self.z * other.x - self.x * other.z,

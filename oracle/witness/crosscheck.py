@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
-from itertools import islice
+from itertools import repeat
 from multiprocessing import get_context
 from time import perf_counter
 
@@ -77,20 +77,9 @@ def crosscheck(
         return
     pool = ProcessPoolExecutor(workers, mp_context=get_context("spawn"))
     try:
-        for future in [pool.submit(_check_all, chunk, names) for chunk in _chunks(queries)]:
-            yield from future.result()
+        yield from pool.map(check, queries, repeat(names), chunksize=CHUNK)
     finally:
         pool.shutdown(cancel_futures=True)
-
-
-def _chunks(queries: Iterable[Query]) -> Iterator[tuple[Query, ...]]:
-    rest = iter(queries)
-    for first in rest:
-        yield (first, *islice(rest, CHUNK - 1))
-
-
-def _check_all(queries: tuple[Query, ...], names: Sequence[str]) -> list[Hearing]:
-    return [check(query, names) for query in queries]
 
 
 @dataclass(slots=True)
@@ -119,7 +108,7 @@ class Score:
 
 @dataclass(slots=True)
 class Summary:
-    """The tally of each witness, and the cases on which one disagreed."""
+    """The score of each witness, and the cases on which one disagreed."""
 
     scores: dict[str, Score]
     differing: list[Hearing] = field(default_factory=list)

@@ -69,32 +69,27 @@ class _Number:
         self.value = value
 
     def as_integer_ratio(self) -> tuple[_Number, int]:
-        """Return the symbol over 1."""
         return self, 1
 
     def __lshift__(self, bits: int) -> Any:
-        """Return the symbol; the unit is 1, so nothing is ever shifted."""
-        assert bits == 0
+        assert bits == 0  # the unit is 1, so nothing is ever shifted
         return self.value
 
 
 @dataclass(frozen=True, slots=True)
 class _Grid:
-    """Passes for the oracle's grid, in units of 1."""
+    """Passes for the oracle's grid, in units of 1; S is the root of what `surd` takes it of."""
 
     u: Any
     v: Any
 
     def point(self, x: Any) -> Any:
-        """Return the point itself."""
         return x
 
     def scalar(self, x: Any) -> Any:
-        """Return the length itself."""
         return x
 
     def surd(self, x: Any, y: Any, d: Any, z: Any) -> Any:
-        """Return the number (x + y sqrt(d)) / z, with S for the root of d."""
         return (x + y * Symbol("S", positive=True)) / z if d != 0 else x / z
 
 

@@ -6,7 +6,7 @@
     planes       faults in Problems 2 and 3: planes, caps, rims; strict comparisons
     limits       faults of reach: starts, self-hits, scales, units, precision
     trees        faults in the algebra of lists
-    answers      faults of the answer's form, and of what is remembered
+    replies      faults of the reply's form, and of what is remembered
     inhabitants  all of them, the sound tracers, and the faults that need a process of their own
     matrix       which family refuses which fault, and why
     cover        the smoke rows: few rows that refuse what the corpus refuses

@@ -11,7 +11,7 @@ from typing import Any
 
 from raycert.cases.model import Ray, Solid
 from raycert.cases.vectors import cross, dot, minus, times
-from raycert.oracle.zoo import answers, limits, planes, trees, walls
+from raycert.oracle.zoo import limits, planes, replies, trees, walls
 from raycert.oracle.zoo.fault import Fault, ProcessFault, Sound
 from raycert.oracle.zoo.tracer import (
     BASE,
@@ -33,7 +33,7 @@ FAULTS: tuple[Fault, ...] = (
     *planes.FAULTS,
     *limits.FAULTS,
     *trees.FAULTS,
-    *answers.FAULTS,
+    *replies.FAULTS,
 )
 """The planted faults, by the part of a tracer that they are in."""
 

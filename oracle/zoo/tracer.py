@@ -194,11 +194,6 @@ class Sight(NamedTuple):
     """t = (the t of the scaled numbers) 2^e."""
 
 
-def as_given(solid: Solid, ray: Ray) -> tuple[Solid, Ray]:
-    """Return the question unchanged."""
-    return solid, ray
-
-
 def chord(y: Vector, v: Vector, r: float) -> Pairs:
     """Return where |y + t v| <= r, from the closest approach."""
     speed, offset, reach = norm(v), norm(cross(v, y)), r * norm(v)
@@ -250,11 +245,6 @@ def ahead(pairs: Pairs) -> Pairs:
     return common(pairs, [(0.0, inf)])
 
 
-def as_found(solid: Solid, ray: Ray, pairs: Pairs) -> Pairs:
-    """Return the answer unchanged."""
-    return pairs
-
-
 def identity(x: float) -> float:
     """Return a number unchanged."""
     return x
@@ -264,7 +254,7 @@ def identity(x: float) -> float:
 class Tracer:
     """The steps, in the order in which they are taken; calling it answers a question."""
 
-    read: Read = as_given
+    read: Read = lambda solid, ray: (solid, ray)
     number: Callable[[float], float] = identity
     scale: Callable[..., int] = exponent
     chord: Chord = chord
@@ -278,7 +268,7 @@ class Tracer:
     unite: Combine = unite
     share: Combine = share
     subtract: Combine = subtract
-    tell: Tell = as_found
+    tell: Tell = lambda solid, ray, pairs: pairs
 
     def __call__(self, solid: Solid, ray: Ray) -> Pairs:
         """Return the list of the t >= 0 for which the ray is in the solid."""

@@ -1,4 +1,4 @@
-"""Faults of the answer itself: its form, and what it remembers of the answers before."""
+"""Faults of the reply: its form, and what is remembered of the questions before."""
 
 from __future__ import annotations
 
