@@ -1,4 +1,4 @@
-"""The questions: plain data, no geometry.
+"""The questions: rays, solids, and why each is asked; nothing here knows an exact answer.
 
 Symbols, fixed once and used everywhere:
 
@@ -11,4 +11,28 @@ Symbols, fixed once and used everywhere:
 A solid is a closed set. The answer is the list of pairs [(enter, leave), ...]: the maximal
 closed intervals of t >= 0 for which f(t) is in the solid. Every number is a binary64 (or a
 binary32) and is taken as exactly the number it is; -0 is 0.
+
+    model       rays and solids that refuse what they cannot mean
+    formats     binary64 and binary32, and how a number is spelled
+    vectors     three numbers as a vector
+    numbers     a ray and a solid as a list of numbers, neighbours on the grid of a format
+    forms       rays and solids as JSON objects
+    lines       the line of a question, spelled straight into text
+    protocol    the messages of the line protocol
+    serve       the implementation's side of it
+    hits        the first hit, or whether there is one, of an interval list
+    scene       solids, a camera and a size, and the ray of each pixel
+    table       the three tables of the case analysis, as data
+    levels      tiers and levels
+    flags       what is hard in a case, and where to read of it
+    case        a case, and a family of them
+    accept      answers between an inner and an outer list of numbers
+    row         a golden row and its JSON form
+    corpus      the golden files and their manifest
+    lattice     where every sound formula decides a touch exactly
+    families    the golden cases, as tables of shots
+    dice        deterministic random numbers
+    recipes     hard numbers, and scenes made of picks from them
+    draw        fresh cases of a seed
+    strategies  the same for Hypothesis
 """
