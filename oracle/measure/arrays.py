@@ -44,6 +44,10 @@ Vector = tuple[Array, Array, Array]
 Span = tuple[Array, Array]
 
 
+def _lifted(operation: Callable[..., Any]) -> Callable[[Any, Any], DoubleDouble]:
+    return lambda self, other: DoubleDouble(*operation(self.pair, other.pair))
+
+
 class DoubleDouble:
     """A pair of arrays; what is not a pair is taken as doubles."""
 
@@ -58,21 +62,8 @@ class DoubleDouble:
         """Return both parts."""
         return self.high, self.low
 
-    def __add__(self, other: DoubleDouble) -> DoubleDouble:
-        """Return the sum."""
-        return DoubleDouble(*arithmetic.add(self.pair, other.pair))
-
-    def __sub__(self, other: DoubleDouble) -> DoubleDouble:
-        """Return the difference."""
-        return DoubleDouble(*arithmetic.sub(self.pair, other.pair))
-
-    def __mul__(self, other: DoubleDouble) -> DoubleDouble:
-        """Return the product."""
-        return DoubleDouble(*arithmetic.mul(self.pair, other.pair))
-
-    def __truediv__(self, other: DoubleDouble) -> DoubleDouble:
-        """Return the quotient."""
-        return DoubleDouble(*arithmetic.div(self.pair, other.pair))
+    __add__, __sub__ = _lifted(arithmetic.add), _lifted(arithmetic.sub)
+    __mul__, __truediv__ = _lifted(arithmetic.mul), _lifted(arithmetic.div)
 
     def __neg__(self) -> DoubleDouble:
         """Return the negative."""

@@ -1,10 +1,10 @@
 """More digits than doubles have: mpmath, its intervals, SymPy, and arb's balls. Loaded when asked.
 
-Intervals and balls decide or raise `Undecided`; an end counts only where both ends of its enclosure
-round to one double. More bits are tried, up to the last of a ladder; what is undecided then is a
-failure, and not a miss.
+All compute the textbook formula. Enclosures decide or raise `Undecided`; an end counts only where
+both ends of its enclosure round to one double. More bits are tried, up to the last of a ladder;
+what is undecided then is a failure, and not a miss.
 
-Enough bits make products of doubles exact, so that arb sees a double root. But where two ends are
+Enough bits make products of doubles exact, so that a double root is seen. But where two ends are
 equal and no dyadic fraction (a touch at t = 1/3), no number of bits tells.
 """
 
@@ -14,12 +14,11 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from importlib import import_module
 from math import inf
-from operator import ge, gt, le, lt
-from typing import Any, TypeVar
+from operator import add, ge, gt, le, lt, mul, sub, truediv
+from typing import Any
 
-from raycert.cases.model import Cylinder, Ray, Solid
-from raycert.cases.vectors import cross, dot, minus
-from raycert.oracle.measure.formulas import Arithmetic, Formula, Vector, rootless, textbook
+from raycert.cases.model import Ray, Solid
+from raycert.oracle.measure.formulas import Arithmetic, Formula, rootless, textbook
 from raycert.oracle.measure.way import Answered, Case, Pairs, Solve, lazily, one_by_one
 
 FORMULA = partial(Formula, textbook, rootless, None)
@@ -28,25 +27,8 @@ INTERVAL_BITS = (166, 332, 664, 1328)
 ARB_BITS = (128, 256, 512, 1024, 2048)
 
 
-T = TypeVar("T")
-
-
 class Undecided(ArithmeticError):
     """An enclosure that is on both sides of what it is compared with."""
-
-
-def ladder(bits: Sequence[int], context: Any, attempt: Callable[[], T]) -> T:
-    """Return what the first number of bits decides; raises `Undecided` after the last."""
-    before = context.prec
-    try:
-        for context.prec in bits:  # each in turn is what the library computes with
-            try:
-                return attempt()
-            except Undecided:
-                continue
-    finally:
-        context.prec = before
-    raise Undecided(f"at {bits[-1]} bits")
 
 
 def with_digits(digits: int) -> Solve:
@@ -89,36 +71,88 @@ def with_intervals() -> Solve:
 
     def make() -> Solve:
         mpmath = import_module("mpmath")
-        formula = FORMULA(_enclosing(mpmath))
-        tell = formula.arithmetic.tell
+        iv, mp = mpmath.iv, mpmath.mp
 
-        def intersect(solid: Solid, ray: Ray) -> Pairs:
-            return ladder(
-                INTERVAL_BITS,
-                mpmath.iv,
-                lambda: tuple((tell(a), tell(b)) for a, b in formula.node(solid, ray)),
-            )
+        def ends(x: Any) -> tuple[float, float]:
+            low, high = (float(mp.make_mpf(end)) for end in x._mpi_)
+            return low, high
 
-        return one_by_one(intersect)
+        return ladder(INTERVAL_BITS, iv, enclosing(iv.mpf, iv.sqrt, ends, iv.mpf(inf)))
 
     return lazily(make)
 
 
-def _enclosing(mpmath: Any) -> Arithmetic:
-    iv, mp = mpmath.iv, mpmath.mp
+def with_arb() -> Solve:
+    """Return the textbook formula in the balls of arb (python-flint), at 128 bits and up."""
+
+    def make() -> Solve:
+        flint = import_module("flint")
+        arb = flint.arb
+
+        def ends(x: Any) -> tuple[float, float]:
+            return float(x.lower()), float(x.upper())
+
+        return ladder(ARB_BITS, flint.ctx, enclosing(arb, arb.sqrt, ends, arb.pos_inf()))
+
+    return lazily(make)
+
+
+def ladder(bits: Sequence[int], context: Any, arithmetic: Arithmetic) -> Solve:
+    """Return the textbook formula, at the first number of bits that decides."""
+    formula, tell = FORMULA(arithmetic), arithmetic.tell
+
+    def intersect(solid: Solid, ray: Ray) -> Pairs:
+        before = context.prec
+        try:
+            for context.prec in bits:  # each in turn is what the library computes with
+                try:
+                    return tuple((tell(a), tell(b)) for a, b in formula.node(solid, ray))
+                except Undecided:
+                    continue
+        finally:
+            context.prec = before
+        raise Undecided(f"at {bits[-1]} bits")
+
+    return one_by_one(intersect)
+
+
+def enclosing(
+    number: Callable[[Any], Any],
+    root: Callable[[Any], Any],
+    ends: Callable[[Any], tuple[float, float]],
+    infinity: Any,
+) -> Arithmetic:
+    """Return the arithmetic of enclosures of a library; `ends` are those of one, as doubles."""
 
     def tell(box: Box) -> float:
-        low, high = (float(mp.make_mpf(end)) for end in box.value._mpi_)
+        low, high = ends(box.value)
         if low != high:
             raise Undecided
         return low
 
     return Arithmetic(
-        lambda x: Box(iv.mpf(x)),
-        lambda box: Box(iv.sqrt(box.value)),
-        tell,
-        infinity=Box(iv.mpf(inf)),
+        lambda x: Box(number(x)), lambda box: Box(root(box.value)), tell, infinity=Box(infinity)
     )
+
+
+def _lifted(operation: Callable[[Any, Any], Any]) -> Callable[[Box, Box], Box]:
+    return lambda self, other: Box(operation(self.value, other.value))
+
+
+def _decided(
+    holds: Callable[[Any, Any], Any], fails: Callable[[Any, Any], Any]
+) -> Callable[[Box, Box | float], bool]:
+    """Return a comparison that is sure: libraries say no, or None, where they are not."""
+
+    def compare(self: Box, other: Box | float) -> bool:
+        value = other.value if isinstance(other, Box) else other
+        if holds(self.value, value):
+            return True
+        if fails(self.value, value):
+            return False
+        raise Undecided
+
+    return compare
 
 
 class Box:
@@ -127,24 +161,13 @@ class Box:
     __slots__ = ("value",)
 
     def __init__(self, value: Any) -> None:
-        """Hold an interval of mpmath."""
+        """Hold an interval or a ball of a library."""
         self.value = value
 
-    def __add__(self, other: Box) -> Box:
-        """Return the sum."""
-        return Box(self.value + other.value)
-
-    def __sub__(self, other: Box) -> Box:
-        """Return the difference."""
-        return Box(self.value - other.value)
-
-    def __mul__(self, other: Box) -> Box:
-        """Return the product."""
-        return Box(self.value * other.value)
-
-    def __truediv__(self, other: Box) -> Box:
-        """Return the quotient."""
-        return Box(self.value / other.value)
+    __add__, __sub__ = _lifted(add), _lifted(sub)
+    __mul__, __truediv__ = _lifted(mul), _lifted(truediv)
+    __lt__, __le__ = _decided(lt, ge), _decided(le, gt)
+    __gt__, __ge__ = _decided(gt, le), _decided(ge, lt)
 
     def __neg__(self) -> Box:
         """Return the negative."""
@@ -154,28 +177,6 @@ class Box:
         """Return the magnitude."""
         return Box(abs(self.value))
 
-    def _sure(self, compare: Callable[[Any, Any], bool | None], other: Box | float) -> bool:
-        decision = compare(self.value, other.value if isinstance(other, Box) else other)
-        if decision is None:
-            raise Undecided
-        return decision
-
-    def __lt__(self, other: Box | float) -> bool:
-        """Whether it is less."""
-        return self._sure(lt, other)
-
-    def __le__(self, other: Box | float) -> bool:
-        """Whether it is at most as large."""
-        return self._sure(le, other)
-
-    def __gt__(self, other: Box | float) -> bool:
-        """Whether it is greater."""
-        return self._sure(gt, other)
-
-    def __ge__(self, other: Box | float) -> bool:
-        """Whether it is at least as large."""
-        return self._sure(ge, other)
-
     def __eq__(self, other: object) -> bool:
         """Whether it is the same number: points only can be."""
         if self is other:
@@ -184,78 +185,3 @@ class Box:
         return self <= other and self >= other
 
     __hash__ = None  # type: ignore[assignment]
-
-
-# A capped cylinder in arb's balls (python-flint): roots, planes and order as in the tables.
-
-
-def with_arb() -> Solve:
-    """Return arb's balls, at 128, 256, ... bits."""
-    return lazily(lambda: one_by_one(in_balls))
-
-
-def in_balls(solid: Solid, ray: Ray) -> Pairs:
-    """Return the list of a capped cylinder, correctly rounded; raises `Undecided`."""
-    assert isinstance(solid, Cylinder)
-    flint = import_module("flint")
-    return ladder(ARB_BITS, flint.ctx, lambda: _balls(flint.arb, solid, ray))
-
-
-def _balls(arb: Any, solid: Cylinder, ray: Ray) -> Pairs:
-    """Return the list by balls of the precision that is set."""
-    p, q, u, v = (
-        (arb(x), arb(y), arb(z)) for x, y, z in (solid.p, solid.q, ray.origin, ray.direction)
-    )
-    w, y, z = minus(q, p), minus(u, p), minus(u, q)
-    wall, slab = _wall(arb(solid.radius), w, y, v), _slab(w, y, z, v)
-    if wall is None or slab is None:
-        return ()
-    both = (*wall, *slab)
-    if not both:
-        return ((0.0, inf),)
-    enter, leave = arb(0), both[0][1]
-    for first, last in both:
-        enter, leave = enter.max(first), leave.min(last)
-    return ((_rounded(enter), _rounded(leave)),) if _sign(leave - enter) >= 0 else ()
-
-
-def _wall(radius: Any, w: Vector, y: Vector, v: Vector) -> list[tuple[Any, Any]] | None:
-    """Return where the line is in the infinite cylinder: [] for everywhere, None for nowhere."""
-    vw, yw = cross(v, w), cross(y, w)
-    a, b, c = dot(vw, vw), dot(vw, yw), dot(yw, yw) - radius * radius * dot(w, w)
-    if not _sign(a):
-        return [] if _sign(c) <= 0 else None
-    disc = b * b - a * c
-    if _sign(disc) < 0:
-        return None
-    root = disc.sqrt()
-    return [((-b - root) / a, (-b + root) / a)]
-
-
-def _slab(w: Vector, y: Vector, z: Vector, v: Vector) -> list[tuple[Any, Any]] | None:
-    """Return where the line is between the caps, likewise."""
-    climb, at_p, at_q = dot(v, w), -dot(y, w), -dot(z, w)
-    side = _sign(climb)
-    if not side:
-        return [] if _sign(at_p) <= 0 <= _sign(at_q) else None
-    ends = (at_p / climb, at_q / climb)
-    return [ends if side > 0 else ends[::-1]]
-
-
-def _sign(x: Any) -> int:
-    """Return the sign that all numbers of a ball have; raises `Undecided`."""
-    if x > 0:
-        return 1
-    if x < 0:
-        return -1
-    if x == 0:
-        return 0
-    raise Undecided
-
-
-def _rounded(x: Any) -> float:
-    """Return the double that both ends of a ball round to; raises `Undecided`."""
-    low, high = float(x.lower()), float(x.upper())
-    if low != high:
-        raise Undecided
-    return low + 0.0

@@ -26,7 +26,7 @@ from raycert.cases.model import (
 from raycert.oracle.client.dialogue import Unusable
 from raycert.oracle.client.target import target
 from raycert.oracle.measure.catalog import BY_NAME, WAYS, chosen, here
-from raycert.oracle.measure.digits import Box, Undecided, in_balls, with_intervals
+from raycert.oracle.measure.digits import Box, Undecided, with_intervals
 from raycert.oracle.measure.errors import referees
 from raycert.oracle.measure.facets import SIDES
 from raycert.oracle.measure.formulas import DOUBLES, frame, printed, q_root, textbook
@@ -261,15 +261,12 @@ def test_a_client_without_lists_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize("scenario", ["random", "axis-aligned", "touching"])
 def test_arb_is_right_or_undecided(scenario: str) -> None:
     pytest.importorskip("flint")
-    decided = 0
-    for case in rays_of(scenario, 120, 5):
-        try:
-            assert in_balls(*case) == exact(*case)
-            decided += 1
-        except Undecided:
-            assert scenario == "touching"
-    assert decided > 60
-    assert (decided < 120) == (scenario == "touching")
+    cases = rays_of(scenario, 120, 5)
+    answers = lists("arb", cases)
+    decided = [i for i, answer in enumerate(answers) if answer is not None]
+    assert all(answers[i] == exact(*cases[i]) for i in decided)
+    assert len(decided) > 30
+    assert (len(decided) < 120) == (scenario == "touching")
 
 
 DRUM = Cylinder((0, 0, 0), (0, 0, 2), 1)
@@ -290,19 +287,19 @@ DRUM = Cylinder((0, 0, 0), (0, 0, 2), 1)
         (Ray((0, 0, 1), (0, 0, 0)), ((0.0, inf),)),
     ],
 )
-def test_arb_decides_what_is_exact_in_bits(
+def test_enclosures_decide_what_is_exact_in_bits(
     ray: Ray, pairs: tuple[tuple[float, float], ...]
 ) -> None:
     pytest.importorskip("flint")
-    assert in_balls(DRUM, ray) == pairs == exact(DRUM, ray)
+    for name in ("arb", "mpmath-intervals"):
+        assert lists(name, [Case(DRUM, ray)]) == [pairs] == [exact(DRUM, ray)]
 
 
-def test_no_number_of_bits_tells_arb_of_a_touch_at_a_third() -> None:
+def test_no_number_of_bits_tells_of_a_touch_at_a_third() -> None:
     flint = pytest.importorskip("flint")
     rim = Ray((-2, 0, 1), (3, 0, -3))
     assert exact(DRUM, rim) == ((1 / 3, 1 / 3),)
     before = flint.ctx.prec
-    with pytest.raises(Undecided, match="bits"):
-        in_balls(DRUM, rim)
+    assert lists("arb", [Case(DRUM, rim)]) == lists("mpmath-intervals", [Case(DRUM, rim)]) == [None]
     assert flint.ctx.prec == before
     assert issubclass(Undecided, FAILURES)
