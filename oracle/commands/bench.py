@@ -19,7 +19,15 @@ if TYPE_CHECKING:
     from raycert.oracle.measure.files import Effort, Report
     from raycert.oracle.measure.race import Figures
 
-SECTIONS = ("methods", "scalar", "batch", "libraries", "scenes", "pipe", "commands")
+SECTIONS = {
+    "methods": "error against run time, of all ways to answer rays",
+    "scalar": "one ray at a time: the oracle beside SymPy, mpmath, python-flint's arb",
+    "batch": "the batch oracle through numba and NumPy, beside the naive float64 formula",
+    "libraries": "the batched reference tracer beside raysect, MuJoCo, trimesh with Embree",
+    "scenes": "the cost of a ray against the number of solids, 1 to 1,000",
+    "pipe": "clients asked through the harness, beside the same clients alone",
+    "commands": "whole commands of raycert, start-up included",
+}
 QUICKLY = ("random", "far", "tilted", "ties")
 """The scenarios of `--quick`, if none are named."""
 WIDTH = 108
@@ -41,13 +49,7 @@ the looser squared measure 6 are enough: `sound`. Three pairs are missed.
 
 \b
 Sections (--section; the first alone if none is named):
-  methods     error against run time, of all ways to answer rays
-  scalar      one ray at a time: the oracle beside SymPy, mpmath, python-flint's arb
-  batch       the batch oracle through numba and NumPy, beside the naive float64 formula
-  libraries   the batched reference tracer beside raysect, MuJoCo, trimesh with Embree
-  scenes      the cost of a ray against the number of solids, 1 to 1,000
-  pipe        clients asked through the harness, beside the same clients alone
-  commands    whole commands of raycert, start-up included
+{sections}
 
 \b
 Scenarios of the section methods:
@@ -69,11 +71,11 @@ Examples:
 --out writes bench.json, bench.csv and a plot of each scenario (needs "raycert[plots]").
 
 Exit status: 0 done, 1 interrupted, 2 bad usage, 3 a client could not be run, or NumPy is missing.
-"""
+""".format(sections="\n".join(f"  {name:10}  {text}" for name, text in SECTIONS.items()))
 
 
 @click.command(epilog=EPILOG)
-@repeatable("--section", "sections", "Only this section", type=click.Choice(SECTIONS))
+@repeatable("--section", "sections", "Only this section", type=click.Choice(list(SECTIONS)))
 @repeatable("--scenario", "scenarios", "Only this scenario")
 @ways_options
 @click.option("--quick", is_flag=True, help="Within a minute: few rays, four scenarios.")
@@ -157,11 +159,9 @@ def _list() -> None:
     from rich.console import Console
 
     from raycert.oracle.measure.catalog import WAYS
-    from raycert.oracle.measure.sections import NAMES
 
-    sections = [(name, NAMES[name]) for name in SECTIONS]
     ways = [(way.name, way.precision, way.does) for way in WAYS]
-    Console().print(grid(("section", "shows"), (), sections))
+    Console().print(grid(("section", "shows"), (), list(SECTIONS.items())))
     Console().print(grid(("\nmethod", "\nfamily", "\na method that"), (), ways, wrap=True))
 
 
@@ -184,16 +184,16 @@ def grid(
 def _show(report: Report) -> None:
     from rich.console import Console
 
+    from raycert.oracle.measure import sections as tables
     from raycert.oracle.measure.files import place
-    from raycert.oracle.measure.sections import SECTIONS
 
     console = Console(width=max(Console().width, WIDTH))
     for name, rows in report.sections.items():
-        if name not in SECTIONS:
+        if name not in tables.SECTIONS:
             _show_race(name, rows, report.seed, console)
             continue
-        section = SECTIONS[name]
-        console.print(f"\n[bold]{name}[/]: {section.about}")
+        section = tables.SECTIONS[name]
+        console.print(f"\n[bold]{name}[/]: {SECTIONS[name]}")
         columns = (*section.words, *section.figures)
         lines = [[spell(row) for _, spell in columns] for row in rows]
         words, figures = ([title for title, _ in x] for x in (section.words, section.figures))

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from raycert.oracle.client.target import target
-from raycert.oracle.measure.digits import with_arb, with_digits, with_intervals, with_sympy
+from raycert.oracle.measure.digits import in_balls, with_digits, with_intervals, with_sympy
 from raycert.oracle.measure.facets import SIDES
 from raycert.oracle.measure.formulas import (
     Formula,
@@ -91,8 +91,8 @@ WAYS: tuple[Way, ...] = (
     ),
     Way("mpmath-intervals", "is the textbook in intervals, of which it must be sure",
         with_intervals(), ALL, "interval", False, needs=("mpmath",)),
-    Way("arb", "is the textbook in arb's balls, of which it must be sure",
-        with_arb(), ALL, "interval", False, needs=("flint",)),
+    Way("arb", "is the textbook in arb's balls, written out for capped cylinders",
+        one_by_one(in_balls), frozenset({"cylinder"}), "interval", False, needs=("flint",)),
     Way("sympy", "is the textbook in SymPy, exact, then 40 digits", with_sympy(), ALL,
         "symbolic", False, needs=("sympy",)),
     Way("oracle", "is the oracle, in integers", one_by_one(exact), ALL, "exact"),

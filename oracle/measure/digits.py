@@ -1,8 +1,9 @@
 """More digits than doubles have: mpmath, its intervals, SymPy, and arb's balls. Loaded when asked.
 
-All compute the textbook formula. Enclosures decide or raise `Undecided`; an end counts only where
-both ends of its enclosure round to one double. More bits are tried, up to the last of a ladder;
-what is undecided then is a failure, and not a miss.
+All compute the textbook formula; for arb, whose speed is looked at, it is written out for capped
+cylinders. Enclosures decide or raise `Undecided`; an end counts only where both ends of its
+enclosure round to one double. More bits are tried, up to the last of a ladder; what is undecided
+then is a failure, and not a miss.
 
 Enough bits make products of doubles exact, so that a double root is seen. But where two ends are
 equal and no dyadic fraction (a touch at t = 1/3), no number of bits tells.
@@ -15,20 +16,36 @@ from functools import partial
 from importlib import import_module
 from math import inf
 from operator import add, ge, gt, le, lt, mul, sub, truediv
-from typing import Any
+from typing import Any, TypeVar
 
-from raycert.cases.model import Ray, Solid
-from raycert.oracle.measure.formulas import Arithmetic, Formula, rootless, textbook
+from raycert.cases.model import Cylinder, Ray, Solid
+from raycert.cases.vectors import cross, dot, minus
+from raycert.oracle.measure.formulas import Arithmetic, Formula, Vector, rootless, textbook
 from raycert.oracle.measure.way import Answered, Case, Pairs, Solve, lazily, one_by_one
 
 FORMULA = partial(Formula, textbook, rootless, None)
 """The textbook formula, times |w|^2: rational but for one root."""
 INTERVAL_BITS = (166, 332, 664, 1328)
 ARB_BITS = (128, 256, 512, 1024, 2048)
+T = TypeVar("T")
 
 
 class Undecided(ArithmeticError):
     """An enclosure that is on both sides of what it is compared with."""
+
+
+def ladder(bits: Sequence[int], context: Any, attempt: Callable[[], T]) -> T:
+    """Return what the first number of bits decides; raises `Undecided` after the last."""
+    before = context.prec
+    try:
+        for context.prec in bits:  # each in turn is what the library computes with
+            try:
+                return attempt()
+            except Undecided:
+                continue
+    finally:
+        context.prec = before
+    raise Undecided(f"at {bits[-1]} bits")
 
 
 def with_digits(digits: int) -> Solve:
@@ -73,66 +90,31 @@ def with_intervals() -> Solve:
         mpmath = import_module("mpmath")
         iv, mp = mpmath.iv, mpmath.mp
 
-        def ends(x: Any) -> tuple[float, float]:
-            low, high = (float(mp.make_mpf(end)) for end in x._mpi_)
-            return low, high
+        def tell(box: Box) -> float:
+            low, high = (float(mp.make_mpf(end)) for end in box.value._mpi_)
+            if low != high:
+                raise Undecided
+            return low
 
-        return ladder(INTERVAL_BITS, iv, enclosing(iv.mpf, iv.sqrt, ends, iv.mpf(inf)))
+        formula = FORMULA(
+            Arithmetic(
+                lambda x: Box(iv.mpf(x)),
+                lambda box: Box(iv.sqrt(box.value)),
+                tell,
+                infinity=Box(iv.mpf(inf)),
+            )
+        )
+
+        def intersect(solid: Solid, ray: Ray) -> Pairs:
+            return ladder(
+                INTERVAL_BITS,
+                iv,
+                lambda: tuple((tell(a), tell(b)) for a, b in formula.node(solid, ray)),
+            )
+
+        return one_by_one(intersect)
 
     return lazily(make)
-
-
-def with_arb() -> Solve:
-    """Return the textbook formula in the balls of arb (python-flint), at 128 bits and up."""
-
-    def make() -> Solve:
-        flint = import_module("flint")
-        arb = flint.arb
-
-        def ends(x: Any) -> tuple[float, float]:
-            return float(x.lower()), float(x.upper())
-
-        return ladder(ARB_BITS, flint.ctx, enclosing(arb, arb.sqrt, ends, arb.pos_inf()))
-
-    return lazily(make)
-
-
-def ladder(bits: Sequence[int], context: Any, arithmetic: Arithmetic) -> Solve:
-    """Return the textbook formula, at the first number of bits that decides."""
-    formula, tell = FORMULA(arithmetic), arithmetic.tell
-
-    def intersect(solid: Solid, ray: Ray) -> Pairs:
-        before = context.prec
-        try:
-            for context.prec in bits:  # each in turn is what the library computes with
-                try:
-                    return tuple((tell(a), tell(b)) for a, b in formula.node(solid, ray))
-                except Undecided:
-                    continue
-        finally:
-            context.prec = before
-        raise Undecided(f"at {bits[-1]} bits")
-
-    return one_by_one(intersect)
-
-
-def enclosing(
-    number: Callable[[Any], Any],
-    root: Callable[[Any], Any],
-    ends: Callable[[Any], tuple[float, float]],
-    infinity: Any,
-) -> Arithmetic:
-    """Return the arithmetic of enclosures of a library; `ends` are those of one, as doubles."""
-
-    def tell(box: Box) -> float:
-        low, high = ends(box.value)
-        if low != high:
-            raise Undecided
-        return low
-
-    return Arithmetic(
-        lambda x: Box(number(x)), lambda box: Box(root(box.value)), tell, infinity=Box(infinity)
-    )
 
 
 def _lifted(operation: Callable[[Any, Any], Any]) -> Callable[[Box, Box], Box]:
@@ -161,7 +143,7 @@ class Box:
     __slots__ = ("value",)
 
     def __init__(self, value: Any) -> None:
-        """Hold an interval or a ball of a library."""
+        """Hold an interval of mpmath."""
         self.value = value
 
     __add__, __sub__ = _lifted(add), _lifted(sub)
@@ -185,3 +167,73 @@ class Box:
         return self <= other and self >= other
 
     __hash__ = None  # type: ignore[assignment]
+
+
+# A capped cylinder in arb's balls (python-flint): roots, planes and order as in the tables.
+
+
+def in_balls(solid: Solid, ray: Ray) -> Pairs:
+    """Return the list of a capped cylinder, correctly rounded; raises `Undecided`."""
+    assert isinstance(solid, Cylinder)
+    flint = import_module("flint")
+    return ladder(ARB_BITS, flint.ctx, lambda: _balls(flint.arb, solid, ray))
+
+
+def _balls(arb: Any, solid: Cylinder, ray: Ray) -> Pairs:
+    """Return the list by balls of the precision that is set."""
+    p, q, u, v = (
+        (arb(x), arb(y), arb(z)) for x, y, z in (solid.p, solid.q, ray.origin, ray.direction)
+    )
+    w, y, z = minus(q, p), minus(u, p), minus(u, q)
+    wall, slab = _wall(arb(solid.radius), w, y, v), _slab(w, y, z, v)
+    if wall is None or slab is None:
+        return ()
+    both = (*wall, *slab)
+    if not both:
+        return ((0.0, inf),)
+    enter, leave = arb(0), both[0][1]
+    for first, last in both:
+        enter, leave = enter.max(first), leave.min(last)
+    return ((_rounded(enter), _rounded(leave)),) if _sign(leave - enter) >= 0 else ()
+
+
+def _wall(radius: Any, w: Vector, y: Vector, v: Vector) -> list[tuple[Any, Any]] | None:
+    """Return where the line is in the infinite cylinder: [] for everywhere, None for nowhere."""
+    vw, yw = cross(v, w), cross(y, w)
+    a, b, c = dot(vw, vw), dot(vw, yw), dot(yw, yw) - radius * radius * dot(w, w)
+    if not _sign(a):
+        return [] if _sign(c) <= 0 else None
+    disc = b * b - a * c
+    if _sign(disc) < 0:
+        return None
+    root = disc.sqrt()
+    return [((-b - root) / a, (-b + root) / a)]
+
+
+def _slab(w: Vector, y: Vector, z: Vector, v: Vector) -> list[tuple[Any, Any]] | None:
+    """Return where the line is between the caps, likewise."""
+    climb, at_p, at_q = dot(v, w), -dot(y, w), -dot(z, w)
+    side = _sign(climb)
+    if not side:
+        return [] if _sign(at_p) <= 0 <= _sign(at_q) else None
+    ends = (at_p / climb, at_q / climb)
+    return [ends if side > 0 else ends[::-1]]
+
+
+def _sign(x: Any) -> int:
+    """Return the sign that all numbers of a ball have; raises `Undecided`."""
+    if x > 0:
+        return 1
+    if x < 0:
+        return -1
+    if x == 0:
+        return 0
+    raise Undecided
+
+
+def _rounded(x: Any) -> float:
+    """Return the double that both ends of a ball round to; raises `Undecided`."""
+    low, high = float(x.lower()), float(x.upper())
+    if low != high:
+        raise Undecided
+    return low + 0.0

@@ -1,15 +1,7 @@
 """The sections of `bench`: a table each, of ways that answer the same rays in one run.
 
-    methods     error against run time, of all ways
-    scalar      one ray at a time: the oracle beside others who aim at all the digits
-    batch       the price of certainty: the batch oracle beside the naive formula in NumPy
-    libraries   the batched reference tracer beside ray casters that people use
-    scenes      the cost of a ray against the number of solids, 1 to 1,000
-    pipe        clients asked through the harness, beside the same clients alone over a file
-    commands    whole commands of raycert, start-up included
-
-The first two are the race of `race`. No way is timed without its answers being looked at: speed
-with wrong answers is not speed.
+`methods` and `scalar` are races of `race`; the others are below, one after the other. No way is
+timed without its answers being looked at: speed with wrong answers is not speed.
 """
 
 from __future__ import annotations
@@ -315,7 +307,6 @@ def _number(title: str, field: str, spell: Callable[[float], str] = plain) -> Co
 class Section:
     """A table of measurements: the columns of its rows, and how to make those."""
 
-    about: str
     legend: str
     rows: Callable[[Report], Iterator[list[Data]]]
     steps: Callable[[Effort], int]
@@ -327,7 +318,6 @@ class Section:
 RUNGS = ("float64", "double-double", "rational", "integer")
 SECTIONS: dict[str, Section] = {
     "batch": Section(
-        "the price of certainty: the batch oracle beside the naive formula in NumPy",
         "naive: nanoseconds a ray of the float64 formula in NumPy; numpy, numba: the batch "
         "oracle's time over that. Then the percentage of the lanes by the highest rung that they "
         "need. Aims: on random rays numba <= 1, numpy <= 8; integer below 0.01, axis-aligned below "
@@ -342,7 +332,6 @@ SECTIONS: dict[str, Section] = {
         ),
     ),
     "libraries": Section(
-        "the batched reference tracer beside ray casters that people use",
         "a capped cylinder; pipe: with a hole along its axis. ratio: time over that of the "
         "reference tracer; a number after a library: facets around its mesh. wrong: rays with "
         "another number of hits than there are; error: largest relative error of a t on the other "
@@ -363,7 +352,6 @@ SECTIONS: dict[str, Section] = {
         ),
     ),
     "scenes": Section(
-        "the cost of a ray against the number of solids",
         "the whole picture (depth) of a crowd of spheres and cylinders, plan included; same: "
         "whether the two pictures have the same bits.",
         _scenes,
@@ -378,7 +366,6 @@ SECTIONS: dict[str, Section] = {
         ),
     ),
     "pipe": Section(
-        "clients asked through the harness, beside the same clients alone over a file",
         "the reference, a client that answers a constant, and the starter in C: microseconds a "
         "case, by the wall, alone and through the harness.",
         _pipe,
@@ -392,7 +379,6 @@ SECTIONS: dict[str, Section] = {
         (),
     ),
     "commands": Section(
-        "whole commands of raycert, start-up included",
         "seconds by the wall: the least, and the median.",
         _commands,
         lambda effort: len(COMMANDS),
@@ -401,12 +387,6 @@ SECTIONS: dict[str, Section] = {
         (),
     ),
 }
-NAMES = {
-    "methods": "error against run time, of all ways to answer rays",
-    "scalar": "one ray at a time: the oracle beside others who aim at all the digits",
-    **{name: section.about for name, section in SECTIONS.items()},
-}
-"""All sections, by what they show."""
 
 
 def scalar(effort: Effort) -> Effort:
