@@ -13,7 +13,7 @@ from raycert.oracle.commands.options import PRECISIONS, BadInput, check_writable
 
 if TYPE_CHECKING:
     from raycert.cases.formats import Format
-    from raycert.oracle.corpus.adopt import Found
+    from raycert.oracle.corpus.adopt import Candidate
     from raycert.oracle.witness.crosscheck import Hearing
 
 EPILOG = """\b
@@ -98,12 +98,12 @@ def _corpus(corpus: Path | None) -> Path:
     return CORPUS
 
 
-def _found(file: Path, options: dict[str, Any]) -> Found:
+def _found(file: Path, options: dict[str, Any]) -> Candidate:
     """Return the case of the file, with what the options say of it."""
     from dataclasses import replace
 
     from raycert.cases.formats import FORMATS
-    from raycert.oracle.corpus.adopt import Found
+    from raycert.oracle.corpus.adopt import Candidate
 
     fmt, id = FORMATS[options["precision"]], options["id"]
     if file.is_dir() or file.suffix == ".jsonl":
@@ -111,7 +111,7 @@ def _found(file: Path, options: dict[str, Any]) -> Found:
     elif id is not None:
         raise BadInput(f"--id: {file} is one case, and no golden file")
     else:
-        found = Found(*from_json(file.read_bytes(), fmt, str(file)), fmt, options["why"])
+        found = Candidate(*from_json(file.read_bytes(), fmt, str(file)), fmt, options["why"])
     found = replace(found, tier=options["tier"])
     if options["source"] is not None:
         found = replace(found, source=options["source"])
@@ -119,7 +119,7 @@ def _found(file: Path, options: dict[str, Any]) -> Found:
     return replace(found, flags=tuple(flags))
 
 
-def _row(file: Path, fmt: Format, id: str | None, why: str) -> Found:
+def _row(file: Path, fmt: Format, id: str | None, why: str) -> Candidate:
     from raycert.cases.corpus import BadCorpus
     from raycert.oracle.corpus.adopt import from_row, rows_in
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from raycert.oracle.commands.listing import select
 from raycert.oracle.commands.options import (
     BadInput,
     family_option,
@@ -16,6 +17,7 @@ from raycert.oracle.commands.options import (
     read,
     tier_option,
     unknown,
+    write_text,
 )
 
 if TYPE_CHECKING:
@@ -25,24 +27,9 @@ if TYPE_CHECKING:
     from raycert.cases.model import Ray, Solid
     from raycert.cases.row import End, GoldenRow
 
-COLUMNS = (
-    "id",
-    "tier",
-    "type",
-    "solid",
-    "ray",
-    "expected",
-    "down",
-    "up",
-    "decisive",
-    "sound_inner",
-    "sound_outer",
-    "sound_most",
-    "stable_inner",
-    "stable_outer",
-    "stable_most",
-    "touches",
-)
+HEADER = """id tier type solid ray expected down up decisive
+sound_inner sound_outer sound_most stable_inner stable_outer stable_most touches"""
+COLUMNS = HEADER.split()
 
 GRAMMAR = """\
 Lines that begin with # are comments. Every other line is a row: tabs between
@@ -123,39 +110,27 @@ def export(
 ) -> None:
     """Write golden rows as flat TSV with bit patterns: no JSON, no decimal to parse."""
     corpus = read(precision, golden)
-    chosen = list(_chosen(corpus, families, tiers, solids))
+    chosen = select(corpus, families=families, tiers=tiers)
+    chosen = _made_of(chosen, solids) if solids else chosen
     if not chosen:
         raise BadInput("no row is such; see: raycert list --families")
-    data = "".join(f"{line}\n" for line in lines(chosen, corpus)).encode("ascii")
-    if out == "-":
-        click.echo(data, nl=False)
-        return
-    from raycert.cases.corpus import write_whole
-
+    data = "".join(f"{line}\n" for line in lines(chosen, corpus))
     try:
-        write_whole(Path(out), data)
+        write_text(out, data)
     except OSError as error:
         raise BadInput(f"--out {out}: {error.strerror}") from None
-    click.echo(f"{len(chosen)} rows written to {out}", err=True)
+    if out != "-":
+        click.echo(f"{len(chosen)} rows written to {out}", err=True)
 
 
-def _chosen(
-    corpus: Corpus, families: tuple[str, ...], tiers: tuple[str, ...], solids: str | None
-) -> Iterator[GoldenRow]:
+def _made_of(rows: list[GoldenRow], solids: str) -> list[GoldenRow]:
+    """Return the rows whose solids are made of some types alone."""
     from raycert.cases.model import SOLIDS, types
 
-    allowed = [name.strip() for name in solids.split(",")] if solids else list(SOLIDS)
-    for name in allowed:
-        if name not in SOLIDS:
-            unknown("solid", name, SOLIDS)
-    for name in families:
-        if name not in (there := {row.family for row in corpus.rows}):
-            unknown("family", name, there)
-    for row in corpus.rows:
-        if (families and row.family not in families) or (tiers and row.tier not in tiers):
-            continue
-        if types(row.solid) <= set(allowed):
-            yield row
+    allowed = {name.strip() for name in solids.split(",")}
+    for name in sorted(allowed - SOLIDS.keys()):
+        unknown("solid", name, SOLIDS)
+    return [row for row in rows if types(row.solid) <= allowed]
 
 
 def lines(rows: list[GoldenRow], corpus: Corpus) -> Iterator[str]:
@@ -202,24 +177,20 @@ def merged_ends(row: GoldenRow) -> list[tuple[End, End]]:
 
 def _solid(solid: Solid, fmt: Format) -> str:
     """Return a solid in prefix notation."""
-    from dataclasses import fields
-
     from raycert.cases.model import Tree, type_of
+    from raycert.cases.numbers import leaf_numbers
 
-    words = [type_of(solid)]
     if isinstance(solid, Tree):
-        return " ".join((*words, str(len(solid.of)), *(_solid(part, fmt) for part in solid.of)))
-    for field in fields(solid):
-        value = getattr(solid, field.name)
-        words.append(_numbers(value if isinstance(value, tuple) else (value,), fmt))
-    return " ".join(words)
+        parts = (_solid(part, fmt) for part in solid.of)
+        return " ".join((type_of(solid), str(len(solid.of)), *parts))
+    return f"{type_of(solid)} {_numbers(leaf_numbers(solid), fmt)}"
 
 
 def _ray(ray: Ray, fmt: Format) -> str:
     return _numbers((*ray.origin, *ray.direction), fmt)
 
 
-def _numbers(values: tuple[float, ...], fmt: Format) -> str:
+def _numbers(values: Sequence[float], fmt: Format) -> str:
     return " ".join(fmt.bits(value) for value in values)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -72,9 +72,7 @@ def list_cases(precision: str, golden: Path | None, **options: Any) -> None:
     if options["legend"]:
         _print_legend()
         return
-    corpus = read(precision, golden)
-    _check(options, corpus)
-    chosen = [row for row in corpus.rows if _matches(row, options)]
+    chosen = select(read(precision, golden), **options)
     if options["reasons"]:
         _print_families(chosen)
     elif options["count"]:
@@ -103,22 +101,12 @@ def values(row: GoldenRow, field: str) -> tuple[str, ...]:
     return (str(getattr(row, field)),)
 
 
-def _matches(row: GoldenRow, options: dict[str, Any]) -> bool:
-    any_of = (("family", "families"), ("tier", "tiers"), ("solid", "solids"))
-    all_of = (("flag", "flags"), ("row", "rows"))
-    source: str = options["source"] or ""
-    touch, level = options["touch"], options["not_decisive"]
-    return (
-        all(not options[o] or set(values(row, f)) & set(options[o]) for f, o in any_of)
-        and all(set(options[o]) <= set(values(row, f)) for f, o in all_of)
-        and source.lower() in row.source.lower()
-        and (not touch or touch in values(row, "touch"))
-        and (not level or level not in row.decisive)
-    )
+def select(corpus: Corpus, **options: Any) -> list[GoldenRow]:
+    """Return the rows that have what the options name; none of an option is no restriction.
 
-
-def _check(options: dict[str, Any], corpus: Corpus) -> None:
-    """Stop at a name that no row of the corpus has."""
+    Of `families`, `tiers` and `solids` a row has any, of `flags` and `rows` all. Ends the command
+    at a name that no row of any corpus has.
+    """
     from raycert.cases.flags import FLAGS
     from raycert.cases.model import SOLIDS
     from raycert.cases.protocol import TOUCHES
@@ -126,18 +114,33 @@ def _check(options: dict[str, Any], corpus: Corpus) -> None:
 
     tables = (*PROBLEM_1, *PROBLEM_2, *PROBLEM_3, *HALF_SPACE)
     signs = {f"{pair[0]}{s}{pair[1]}" for pair in ("ac", "bd", "mn") for s in "<=>"}
-    families = {row.family for row in corpus.rows}
-    names: list[tuple[str, Iterable[str], Iterable[str]]] = [
-        ("family", options["families"], families),
-        ("flag", options["flags"], FLAGS),
-        ("row", options["rows"], {row.name for row in tables} | signs),
-        ("solid", options["solids"], SOLIDS),
-        ("touch", [options["touch"]] if options["touch"] else [], (*TOUCHES, "none")),
+    touches = (options["touch"],) if options.get("touch") else ()
+    known: dict[str, tuple[Collection[str], Iterable[str]]] = {
+        "family": (options.get("families", ()), {row.family for row in corpus.rows}),
+        "tier": (options.get("tiers", ()), TIERS),
+        "solid": (options.get("solids", ()), SOLIDS),
+        "flag": (options.get("flags", ()), FLAGS),
+        "row": (options.get("rows", ()), {row.name for row in tables} | signs),
+        "touch": (touches, (*TOUCHES, "none")),
+    }
+    for field, (given, names) in known.items():
+        for name in given:
+            if name not in names:
+                unknown(field, name, names)
+    wanted = {field: set(given) for field, (given, _) in known.items() if given}
+    source, level = (options.get("source") or "").lower(), options.get("not_decisive")
+
+    def has(row: GoldenRow, field: str, names: set[str]) -> bool:
+        own = set(values(row, field))
+        return names <= own if field in ("flag", "row") else bool(names & own)
+
+    return [
+        row
+        for row in corpus.rows
+        if all(has(row, *item) for item in wanted.items())
+        and source in row.source.lower()
+        and level not in row.decisive
     ]
-    for what, given, known in names:
-        for value in given:
-            if value not in known:
-                unknown(what, value, known)
 
 
 def _screen() -> int | None:

@@ -59,7 +59,7 @@ class Unfit(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class Candidate:
     """A case to adopt: what is asked, in which format it was found, and what is said of it."""
 
     solid: Solid
@@ -77,7 +77,7 @@ class Found:
 
 
 @dataclass(frozen=True, slots=True)
-class Kept:
+class Adoption:
     """A case that was adopted: its id, its precisions, and the files that were written."""
 
     id: str
@@ -97,9 +97,9 @@ def installed() -> tuple[str, ...]:
     return tuple(names)
 
 
-def examine(found: Found, witnesses: Sequence[str]) -> Hearing:
+def examine(candidate: Candidate, witnesses: Sequence[str]) -> Hearing:
     """Return what witnesses say of a case. Raises `Contradiction` where one finds another list."""
-    checked = check(Query("found", found.solid, found.ray), witnesses)
+    checked = check(Query("found", candidate.solid, candidate.ray), witnesses)
     for name, verdict, _ in checked.testimonies:
         if verdict.outcome == "disagreed":
             raise Contradiction(
@@ -108,29 +108,29 @@ def examine(found: Found, witnesses: Sequence[str]) -> Hearing:
     return checked
 
 
-def adopt(corpus: Path, name: str, found: Found, slug: str | None = None) -> Kept:
+def adopt(corpus: Path, name: str, candidate: Candidate, slug: str | None = None) -> Adoption:
     """Keep a case in a family of a corpus, as inputs and as golden rows.
 
     Raises `Unfit`, `BadAdopted` and `BadCorpus`; then nothing is written.
     """
-    _fit(name, found)
+    _fit(name, candidate)
     source = corpus / "adopted" / f"{name}.jsonl"
     entries = read(source)
     golden = corpus / "golden"
     files = _files(golden)
-    _new(found, files)
-    if any(isinstance(e, Adopted) and e.case.why == found.why for e in entries):
+    _new(candidate, files)
+    if any(isinstance(e, Adopted) and e.case.why == candidate.why for e in entries):
         raise Unfit("--why: another case of the family says the same; say what this one shows")
-    precisions = _precisions(found)
+    precisions = _precisions(candidate)
     taken = {slug_of(entry) for entry in entries}
     case = Case(
-        slug=_slug(found, slug, taken),
-        why=found.why,
-        solid=found.solid,
-        ray=found.ray,
-        tier=found.tier or tier(found),
-        flags=found.flags,
-        source=found.source,
+        slug=_slug(candidate, slug, taken),
+        why=candidate.why,
+        solid=candidate.solid,
+        ray=candidate.ray,
+        tier=candidate.tier or tier(candidate),
+        flags=candidate.flags,
+        source=candidate.source,
     )
     entries = (*entries, Adopted(case, precisions))
     family = Family(name, REASON, lambda fmt: cases_of(entries, fmt))
@@ -139,7 +139,7 @@ def adopt(corpus: Path, name: str, found: Found, slug: str | None = None) -> Kep
     for file, data in made.items():
         write_whole(golden / file, data)
     write_whole(golden / MANIFEST, manifest(files | made))
-    return Kept(f"{name}/{case.slug}", precisions, (source, *(golden / file for file in made)))
+    return Adoption(f"{name}/{case.slug}", precisions, (source, *(golden / file for file in made)))
 
 
 def sources(corpus: Path) -> tuple[Family, ...]:
@@ -151,27 +151,26 @@ def sources(corpus: Path) -> tuple[Family, ...]:
     return (*(family for family in FAMILIES if family.name not in names), *own)
 
 
-def tier(found: Found) -> Tier:
+def tier(candidate: Candidate) -> Tier:
     """Return the tier of a case; stiff is a touch, and what takes half of the digits or more."""
-    if not is_usual(found.probe, found.format):
+    if not is_usual(candidate.probe, candidate.format):
         return "range"
-    if is_lattice(found.solid, found.ray):
+    if is_lattice(candidate.solid, candidate.ray):
         return "lattice"
-    intervals = trace(found.solid, found.ray).intervals
-    size = condition(intervals, found.solid, found.ray)
+    intervals = trace(candidate.solid, candidate.ray).intervals
+    size = condition(intervals, candidate.solid, candidate.ray)
     touches = any(enter == leave for enter, leave in intervals)
-    hard = touches or (size is not None and size >= found.format.precision // 2)
+    hard = touches or (size is not None and size >= candidate.format.precision // 2)
     return "stiff" if hard else "generic"
 
 
-def _fit(name: str, found: Found) -> None:
+def _fit(name: str, candidate: Candidate) -> None:
     """Refuse a name, a sentence, a source or a flag that no family of a corpus has."""
-    if not SLUG.fullmatch(name) or len(name) > LONGEST_SLUG:
-        raise Unfit(f"--family: {name!r:.40} is not lower-case words joined by -")
+    _spelled("--family", name)
     adopted = {family.name for family in families(CORPUS / "adopted")}
     if name in {family.name for family in FAMILIES} - adopted:
         raise Unfit(f"--family: {name} is made by the catalogue; choose another name")
-    why = found.why
+    why = candidate.why
     if len(why) > LONGEST_WHY or not re.fullmatch(r"[A-Z0-9][ -~]*[^.]\.", why):
         raise Unfit(
             f"--why: say one fact, as a sentence of at most {LONGEST_WHY} ASCII characters that "
@@ -179,14 +178,17 @@ def _fit(name: str, found: Found) -> None:
         )
     if word := MODAL.search(why):
         raise Unfit(f"--why: say what is, without {word[0]!r}")
-    if not re.fullmatch(r"[!-~][ -~]{1,118}", found.source) or found.source == "construction":
+    if (
+        not re.fullmatch(r"[!-~][ -~]{1,118}", candidate.source)
+        or candidate.source == "construction"
+    ):
         raise Unfit("--source: name a public report; 'construction' is for lists known beforehand")
-    if unknown := [flag for flag in found.flags if flag not in FLAGS]:
+    if unknown := [flag for flag in candidate.flags if flag not in FLAGS]:
         raise Unfit(f"--flag: not in the legend: {', '.join(unknown)}; see: raycert list --flags")
-    lattice = is_lattice(found.solid, found.ray)
-    if found.tier not in (None, "range") and (found.tier == "lattice") != lattice:
+    lattice = is_lattice(candidate.solid, candidate.ray)
+    if candidate.tier not in (None, "range") and (candidate.tier == "lattice") != lattice:
         where = "on" if lattice else "off"
-        raise Unfit(f"--tier: the case is {where} the lattice, so it is not {found.tier}")
+        raise Unfit(f"--tier: the case is {where} the lattice, so it is not {candidate.tier}")
 
 
 def _files(golden: Path) -> dict[str, bytes]:
@@ -202,66 +204,68 @@ def _files(golden: Path) -> dict[str, bytes]:
     return files
 
 
-def _new(found: Found, files: dict[str, bytes]) -> None:
+def _new(candidate: Candidate, files: dict[str, bytes]) -> None:
     """Refuse a case that the corpus asks already."""
-    asked = _inputs(found)
+    asked = _inputs(candidate)
     for file, data in files.items():
-        if file.partition("/")[0] != found.format.name:
+        if file.partition("/")[0] != candidate.format.name:
             continue
         lines = b"\n".join(line for line in data.splitlines() if asked in line)
-        for row in decode_rows(lines, found.format, file):
+        for row in decode_rows(lines, candidate.format, file):
             raise Unfit(f"{row.id} asks the same")
 
 
-def _inputs(found: Found) -> bytes:
+def _inputs(candidate: Candidate) -> bytes:
     """Return the case as a golden row spells it."""
-    form = {"solid": write_solid(found.solid, "hex"), "ray": write_ray(found.ray, "hex")}
+    form = {"solid": write_solid(candidate.solid, "hex"), "ray": write_ray(candidate.ray, "hex")}
     return json.dumps(form, separators=(",", ":"))[1:-1].encode()
 
 
-def _precisions(found: Found) -> tuple[str, ...]:
+def _precisions(candidate: Candidate) -> tuple[str, ...]:
     """Return the formats in which to ask: the one it was found in, and those that fit as well."""
+    probe, own = candidate.probe, candidate.format
 
     def fits(fmt: Format) -> bool:
-        held = all(fmt.holds(x) for x in numbers(found.probe))
-        return held and is_usual(found.probe, fmt) == is_usual(found.probe, found.format)
+        held = all(map(fmt.holds, numbers(probe)))
+        return held and is_usual(probe, fmt) == is_usual(probe, own)
 
-    return tuple(name for name, fmt in FORMATS.items() if fmt is found.format or fits(fmt))
+    return tuple(name for name, fmt in FORMATS.items() if fmt is own or fits(fmt))
 
 
-def _slug(found: Found, wanted: str | None, taken: set[str]) -> str:
+def _slug(candidate: Candidate, wanted: str | None, taken: set[str]) -> str:
     if wanted is not None:
-        if not SLUG.fullmatch(wanted) or len(wanted) > LONGEST_SLUG:
-            raise Unfit(f"--slug: {wanted!r:.40} is not lower-case words joined by -")
-        if wanted in taken:
-            raise Unfit(f"--slug: {wanted} is taken, and no slug is used again")
-        return wanted
-    slug = shown(found)
+        _spelled("--slug", wanted)
+    slug = wanted or slug_for(candidate)
+    if slug in taken and wanted is None:
+        slug += f"-{hashlib.sha256(_inputs(candidate)).hexdigest()[:8]}"
     if slug in taken:
-        slug += f"-{hashlib.sha256(_inputs(found)).hexdigest()[:8]}"
-    if slug in taken:
-        raise Unfit(f"--slug: {slug} is taken, and no slug is used again; give one")
+        raise Unfit(f"--slug: {slug} is taken, and no slug is used again; give another")
     return slug
 
 
-def shown(found: Found) -> str:
+def _spelled(option: str, slug: str) -> None:
+    if not SLUG.fullmatch(slug) or len(slug) > LONGEST_SLUG:
+        raise Unfit(f"{option}: {slug!r:.40} is not lower-case words joined by -")
+
+
+def slug_for(candidate: Candidate) -> str:
     """Return a slug in words of what a case shows: its flags or rows, and its solid."""
-    kinds = dict.fromkeys(type_of(leaf) for _, leaf in leaves(found.solid))
-    solid = type_of(found.solid)
+    kinds = dict.fromkeys(type_of(leaf) for _, leaf in leaves(candidate.solid))
+    solid = type_of(candidate.solid)
     if solid not in kinds:
         solid = "-".join((solid, *kinds))
-    answer = trace(found.solid, found.ray)
+    answer = trace(candidate.solid, candidate.ray)
     rows = [row.lower() for row in answer.rows if re.fullmatch(r"[A-Za-z-]+", row)]
     count = {0: "no-pair", 1: "pair"}.get(len(answer.intervals), f"{len(answer.intervals)}-pairs")
-    what = found.flags or tuple(dict.fromkeys(rows))[:4] or (count,)
+    what = candidate.flags or tuple(dict.fromkeys(rows))[:4] or (count,)
     words = "-".join((*what, solid)).replace("_", "-")
     return words if len(words) <= LONGEST_SLUG else words[:LONGEST_SLUG].rpartition("-")[0]
 
 
-def from_row(row: GoldenRow, fmt: Format, why: str) -> Found:
+def from_row(row: GoldenRow, fmt: Format, why: str) -> Candidate:
     """Return the case of a golden row, such as one that a hunt wrote."""
     source = "oracle" if row.source == "construction" else row.source
-    return Found(row.solid, row.ray, fmt, why, source, row.flags)
+    return Candidate(row.solid, row.ray, fmt, why, source, row.flags)
 
 
 def rows_in(path: Path, fmt: Format) -> list[tuple[GoldenRow, Format]]:

@@ -17,13 +17,13 @@ from raycert.cases.model import Cylinder, Ray, Sphere, Union
 from raycert.oracle.corpus import golden
 from raycert.oracle.corpus.adopt import (
     CORPUS,
-    Found,
+    Candidate,
     Unfit,
     adopt,
     examine,
     from_row,
     rows_in,
-    shown,
+    slug_for,
     sources,
 )
 from raycert.oracle.corpus.golden import USUAL, Contradiction, compare, golden_row
@@ -31,7 +31,7 @@ from raycert.oracle.witness.crosscheck import check
 from raycert.oracle.witness.testimony import Testimony
 
 CAN = Cylinder((0.0, 0.0, 0.0), (0.0, 0.0, 2.0), 1.0)
-FOUND = Found(CAN, Ray((-3.0, 0.25, 1.0), (1.0, 0.0, 0.0)), BINARY64, "A ray crosses.")
+FOUND = Candidate(CAN, Ray((-3.0, 0.25, 1.0), (1.0, 0.0, 0.0)), BINARY64, "A ray crosses.")
 OTHER = replace(FOUND, ray=Ray((-3.0, 0.1, 1.0), (1.0, 0.0, 0.0)), why="A ray passes by the axis.")
 
 
@@ -84,12 +84,12 @@ def test_an_id_does_not_depend_on_what_came_before(tmp_path: Path) -> None:
 
 
 def test_a_slug_is_not_used_again(tmp_path: Path) -> None:
-    entries = (Retired(shown(FOUND), "It was wrong."), Retired("mine", "It was wrong."))
+    entries = (Retired(slug_for(FOUND), "It was wrong."), Retired("mine", "It was wrong."))
     write_whole(tmp_path / "adopted" / "crossed.jsonl", encode(entries))
     with pytest.raises(Unfit, match="no slug is used again"):
         adopt(tmp_path, "crossed", FOUND, "mine")
     kept = adopt(tmp_path, "crossed", FOUND)
-    assert kept.id.startswith(f"crossed/{shown(FOUND)}-")
+    assert kept.id.startswith(f"crossed/{slug_for(FOUND)}-")
     assert len(read(tmp_path / "adopted" / "crossed.jsonl")) == 3
 
 
@@ -158,17 +158,17 @@ def test_a_witness_that_disagrees_refuses(monkeypatch: pytest.MonkeyPatch) -> No
         (replace(FOUND, ray=Ray((-3.0, 0.0, 1.0), (2.0**200, 0.0, 0.0))), "range"),
     ],
 )
-def test_the_tier_is_told_by_the_numbers(found: Found, tier: str, tmp_path: Path) -> None:
+def test_the_tier_is_told_by_the_numbers(found: Candidate, tier: str, tmp_path: Path) -> None:
     adopt(tmp_path, "crossed", found)
     [row] = read_corpus("binary64", tmp_path / "golden").rows
     assert row.tier == tier
 
 
 def test_a_slug_says_what_a_case_shows() -> None:
-    assert shown(FOUND) == "through-ae-meet-cylinder"
-    assert shown(replace(FOUND, flags=("tangent", "rim"))) == "tangent-rim-cylinder"
+    assert slug_for(FOUND) == "through-ae-meet-cylinder"
+    assert slug_for(replace(FOUND, flags=("tangent", "rim"))) == "tangent-rim-cylinder"
     both = replace(FOUND, solid=Union((CAN, Sphere((0.0, 0.0, 9.0), 1.0))))
-    assert shown(both).endswith("union-cylinder-sphere")
+    assert slug_for(both).endswith("union-cylinder-sphere")
 
 
 def cases(fmt: Format) -> Iterator[Case]:

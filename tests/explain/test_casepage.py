@@ -59,7 +59,7 @@ def test_the_page_has_the_derivation_with_the_taken_rows_lit() -> None:
 def test_a_cylinder_has_a_view_along_and_one_across() -> None:
     along, across = views(CAN, RAY, ENDS)
     axis = (0.0, 0.0, 1.0)
-    assert abs(dot(across.section.along, axis)) < 1e-15
+    assert abs(dot(across.section.ahead, axis)) < 1e-15
     assert abs(dot(across.section.plane.up, axis)) < 1e-15
     assert abs(dot(along.section.plane.up, axis)) > 0.9
     sizes = [b - a for _, a, b in across.section.filled()]
