@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from raycert.oracle.commands.measuring import chosen, drawing, end, known, ways_options
 from raycert.oracle.commands.options import check_writable, counting, repeatable
-from raycert.oracle.commands.ways import chosen, drawing, end, known, ways_options
 
 if TYPE_CHECKING:
     from rich.console import Console

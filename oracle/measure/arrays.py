@@ -34,7 +34,7 @@ from raycert.cases.model import (
 from raycert.cases.vectors import cross, dot, minus
 from raycert.oracle.batch import arithmetic
 from raycert.oracle.batch.lanes import Floats
-from raycert.oracle.measure.formulas import COMBINE
+from raycert.oracle.measure.quadratics import COMBINE
 from raycert.oracle.measure.way import Answered, Case, answered
 from raycert.oracle.zoo.tracer import Pairs
 

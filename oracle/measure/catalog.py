@@ -15,7 +15,7 @@ from typing import Any
 from raycert.oracle.client.target import target
 from raycert.oracle.measure.digits import in_balls, with_digits, with_intervals, with_sympy
 from raycert.oracle.measure.facets import SIDES
-from raycert.oracle.measure.formulas import (
+from raycert.oracle.measure.quadratics import (
     Formula,
     determinant,
     frame,

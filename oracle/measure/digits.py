@@ -20,7 +20,7 @@ from typing import Any, TypeVar
 
 from raycert.cases.model import Cylinder, Ray, Solid
 from raycert.cases.vectors import cross, dot, minus
-from raycert.oracle.measure.formulas import Arithmetic, Formula, Vector, rootless, textbook
+from raycert.oracle.measure.quadratics import Arithmetic, Formula, Vector, rootless, textbook
 from raycert.oracle.measure.way import Answered, Case, Pairs, Solve, lazily, one_by_one
 
 FORMULA = partial(Formula, textbook, rootless, None)

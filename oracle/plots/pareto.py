@@ -153,14 +153,9 @@ def _meshes(axes: Axes, rows: Sequence[Figures], places: list[tuple[float, float
         for _, (x, y), r in line:
             inside = PAPER if r.lost else look.color
             axes.plot(
-                [x],
-                [y],
-                shape,
-                color=look.color,
-                markersize=4.5,
-                markerfacecolor=inside,
+                [x], [y], shape, color=look.color, markersize=4.5, markerfacecolor=inside,
                 zorder=2.1,
-            )
+            )  # fmt: skip
         n, (x, y), _ = line[0]
         axes.annotate(
             f"n={n}", (x, y), xytext=(5, -2.5), textcoords="offset points", size=7,

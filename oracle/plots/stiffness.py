@@ -26,7 +26,7 @@ from raycert.oracle.measure.curves import Curve, Stress
 from raycert.oracle.measure.facets import CASTERS, Sides, slope
 from raycert.oracle.measure.ranges import MOST
 from raycert.oracle.measure.sweeps import Sweep
-from raycert.oracle.plots.style import FAINT, GRID, INK, SERIES, Look, figure
+from raycert.oracle.plots.style import FAINT, GRID, INK, SERIES, Stroke, figure
 
 Field = Literal["strict", "ulps"]
 FIRST = ("reference", "textbook", "determinant", "q-root", "shift", "oracle")
@@ -132,12 +132,8 @@ def draw(
     drawing = figure(width, height)
     grid = drawing.add_gridspec(lines, columns, hspace=0.42, wspace=0.2)
     inches = (0.62, 0.5, width - 0.3, height - HEAD - 0.15)
-    grid.update(
-        left=inches[0] / width,
-        bottom=inches[1] / height,
-        right=inches[2] / width,
-        top=inches[3] / height,
-    )
+    left, bottom, right, top = inches
+    grid.update(left=left / width, bottom=bottom / height, right=right / width, top=top / height)
     for i, sweep in enumerate(sweeps):
         cell = grid[divmod(i, columns)].subgridspec(2, 1, height_ratios=[4.2, 1.0], hspace=0.06)
         upper = drawing.add_subplot(cell[0])
@@ -188,7 +184,7 @@ def _axes(upper: Axes, lower: Axes, axis: Axis, rows: int, top: str) -> None:
     lower.set_xlabel(axis.sweep.axis, labelpad=1, fontsize=8)
 
 
-def _lines(upper: Axes, axis: Axis, curve: Curve, look: Look, field: Field, apart: float) -> None:
+def _lines(upper: Axes, axis: Axis, curve: Curve, look: Stroke, field: Field, apart: float) -> None:
     """Draw the worst errors of a method, and marks where k is beyond 64."""
     known = [x for x in axis.steps if x in curve]
     places = [axis.at(x) + apart for x in known]
@@ -199,52 +195,39 @@ def _lines(upper: Axes, axis: Axis, curve: Curve, look: Look, field: Field, apar
         return
     strict, squared = [curve[x].strict for x in known], [curve[x].squared for x in known]
     upper.plot(places, [*map(_shown, squared)], color=look.color, linewidth=0.5, alpha=0.8)
+    beyond = spaced(places, [k > MOST for k in strict], abs(axis.width) / MARKS)
     upper.plot(
-        places,
-        [*map(_shown, strict)],
-        color=look.color,
-        linestyle=look.dash,
-        linewidth=1.3,
-        marker=look.mark,
-        markersize=3.4,
-        markevery=spaced(places, [k > MOST for k in strict], abs(axis.width) / MARKS),
-    )
+        places, [*map(_shown, strict)], color=look.color, linestyle=look.dash, linewidth=1.3,
+        marker=look.mark, markersize=3.4, markevery=beyond,
+    )  # fmt: skip
 
 
 def _shown(value: float) -> float:
     return min(max(value, LOW), NONE) if isfinite(value) else NONE
 
 
-def _dots(lower: Axes, axis: Axis, curve: Curve, look: Look, number: int) -> None:
+def _dots(lower: Axes, axis: Axis, curve: Curve, look: Stroke, number: int) -> None:
     """Draw the share of wrong counts, missed, phantom or failed, as the area of dots."""
     lower.axhline(number, color=GRID, linewidth=0.5, zorder=0)
     known = [(axis.at(x), curve[x]) for x in axis.steps if x in curve]
     shares = [(at, p.inexact if axis.sweep.rounding else p.wrong) for at, p in known]
     wrong = [(at, share) for at, share in shares if share]
-    lower.scatter(
-        [at for at, _ in wrong],
-        [number] * len(wrong),
-        s=[1.5 + 5 * share for _, share in wrong],
-        color=look.color,
-        linewidths=0,
-        clip_on=False,
-    )
+    sizes = [1.5 + 5 * share for _, share in wrong]
+    places = [at for at, _ in wrong], [number] * len(wrong)
+    lower.scatter(*places, s=sizes, color=look.color, linewidths=0, clip_on=False)
 
 
 def _sides(axes: Axes, sides: Sequence[Sides]) -> None:
     """Draw the error of meshes against their sides, with the fitted slopes."""
-    looks = (Look(GRID, ""), Look(INK, "", (0, (3, 2))))
+    looks = (Stroke(GRID, ""), Stroke(INK, "", (0, (3, 2))))
     for caster, look, width in zip(CASTERS, looks, (4.0, 1.2), strict=True):
         found = [one for one in sides if one.caster == caster and isfinite(one.error)]
         if found:
             axes.plot(
-                [one.n for one in found],
-                [one.error for one in found],
-                color=look.color,
-                linestyle=look.dash,
-                linewidth=width,
+                [one.n for one in found], [one.error for one in found], color=look.color,
+                linestyle=look.dash, linewidth=width,
                 label=f"{caster}: slope {slope(sides, caster):.2f}",
-            )
+            )  # fmt: skip
     axes.set_title("meshes of n sides: error / radius", pad=3)
     axes.set_xscale("log", base=2)
     axes.set_yscale("log")
@@ -263,32 +246,16 @@ def _notes(axes: Axes, notes: Sequence[str]) -> None:
 
 
 def _legend(drawing: Figure, names: Sequence[str], field: Field) -> None:
-    mark = {"marker": ""} if field == "ulps" else {}
     handles: list[Any] = [
         Line2D(
-            [],
-            [],
-            **{
-                "color": look.color,
-                "linestyle": look.dash,
-                "marker": look.mark,
-                "markersize": 4,
-                "linewidth": 1.3,
-                "label": name,
-            }
-            | mark,
+            [], [], color=look.color, linestyle=look.dash, linewidth=1.3, label=name, markersize=4,
+            marker="" if field == "ulps" else look.mark,
         )
         for name, look in zip(names, SERIES, strict=False)
-    ]
+    ]  # fmt: skip
     handles.append(Patch(facecolor=SHADE, edgecolor=FAINT, label="condition, ulps"))
     drawing.legend(
-        handles=handles,
-        loc="upper left",
-        bbox_to_anchor=(0.0, 1.0),
-        ncols=len(handles),
-        title=TITLES[field],
-        alignment="left",
-        columnspacing=1.3,
-        handlelength=2.8,
+        handles=handles, loc="upper left", bbox_to_anchor=(0.0, 1.0), ncols=len(handles),
+        title=TITLES[field], alignment="left", columnspacing=1.3, handlelength=2.8,
         title_fontsize=9,
-    )
+    )  # fmt: skip

@@ -44,7 +44,7 @@ RC: Any = {
 
 
 @dataclass(frozen=True)
-class Look:
+class Stroke:
     """A colour whose grey differs from its neighbours', a mark, and a dash for lines."""
 
     color: str
@@ -52,31 +52,31 @@ class Look:
     dash: Any = "-"
 
 
-LOOKS: dict[str, Look] = {
-    "exact": Look("#000000", "D"),
-    "float64": Look("#0b5fa5", "o"),
-    "float32": Look("#4a90c4", "v", (0, (1, 1))),
-    "longdouble": Look("#2a7f62", "^", (0, (5, 1))),
-    "double-double": Look("#145a3e", "s", (0, (4, 1, 1, 1))),
-    "mpmath": Look("#b5651d", "s", (0, (3, 1))),
-    "interval": Look("#7a3b0c", "p", (0, (3, 1, 1, 1))),
-    "symbolic": Look("#8c1c5a", "h", (0, (3, 1, 1, 1, 1, 1))),
-    "mesh": Look("#8a8a8a", "o", (0, (2, 1))),
-    "client": Look("#c21f1f", "8", (0, (6, 2))),
+LOOKS: dict[str, Stroke] = {
+    "exact": Stroke("#000000", "D"),
+    "float64": Stroke("#0b5fa5", "o"),
+    "float32": Stroke("#4a90c4", "v", (0, (1, 1))),
+    "longdouble": Stroke("#2a7f62", "^", (0, (5, 1))),
+    "double-double": Stroke("#145a3e", "s", (0, (4, 1, 1, 1))),
+    "mpmath": Stroke("#b5651d", "s", (0, (3, 1))),
+    "interval": Stroke("#7a3b0c", "p", (0, (3, 1, 1, 1))),
+    "symbolic": Stroke("#8c1c5a", "h", (0, (3, 1, 1, 1, 1, 1))),
+    "mesh": Stroke("#8a8a8a", "o", (0, (2, 1))),
+    "client": Stroke("#c21f1f", "8", (0, (6, 2))),
 }
 """By family of methods."""
 
-SERIES: tuple[Look, ...] = (
-    Look("#000000", "D", "-"),
-    Look("#0b5fa5", "o", (0, (6, 1.5))),
-    Look("#c2571a", "s", (0, (2, 1))),
-    Look("#2a7f62", "^", (0, (6, 1, 1, 1))),
-    Look("#8c1c5a", "v", (0, (1, 1))),
-    Look("#5aa0d8", "P", (0, (4, 1, 1, 1, 1, 1))),
-    Look("#d89a2b", "X", (0, (3, 2))),
-    Look("#6b6b6b", "p", (0, (1, 2))),
-    Look("#7bbf9a", "<", (0, (8, 2, 2, 2))),
-    Look("#b87aa5", ">", (0, (2, 2, 6, 2))),
+SERIES: tuple[Stroke, ...] = (
+    Stroke("#000000", "D", "-"),
+    Stroke("#0b5fa5", "o", (0, (6, 1.5))),
+    Stroke("#c2571a", "s", (0, (2, 1))),
+    Stroke("#2a7f62", "^", (0, (6, 1, 1, 1))),
+    Stroke("#8c1c5a", "v", (0, (1, 1))),
+    Stroke("#5aa0d8", "P", (0, (4, 1, 1, 1, 1, 1))),
+    Stroke("#d89a2b", "X", (0, (3, 2))),
+    Stroke("#6b6b6b", "p", (0, (1, 2))),
+    Stroke("#7bbf9a", "<", (0, (8, 2, 2, 2))),
+    Stroke("#b87aa5", ">", (0, (2, 2, 6, 2))),
 )
 """For lines of one plot, in turn: told apart by dash and mark alone."""
 

@@ -29,7 +29,7 @@ from raycert.oracle.measure.catalog import BY_NAME, WAYS, chosen, here
 from raycert.oracle.measure.digits import Box, Undecided, with_intervals
 from raycert.oracle.measure.errors import referees
 from raycert.oracle.measure.facets import SIDES
-from raycert.oracle.measure.formulas import DOUBLES, frame, printed, q_root, textbook
+from raycert.oracle.measure.quadratics import DOUBLES, frame, printed, q_root, textbook
 from raycert.oracle.measure.rays import TIES, rays_of
 from raycert.oracle.measure.way import (
     ALL,
