@@ -8,7 +8,11 @@
 
 A `family` stands for all its rows that fail, a `convention` for a type of solid whose touches go
 another way than asked. An expected failure that passes, and an entry that is about nothing in the
-corpus, are failures of the run (expected.py): such a file has to be mended.
+corpus, are failures of the run: such a file has to be mended.
+
+A row fails on the lowest level it fails, of those up to the one asked. An entry is `met` by such a
+failure, `idle` where the run could not tell (the row is outside the part that was asked, or the
+level is above the one asked), else it is wrong: what it is about passes, or is not there.
 """
 
 from __future__ import annotations
@@ -16,14 +20,14 @@ from __future__ import annotations
 import json
 import tomllib
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from typing import Any, Literal
 
 from raycert.cases.levels import LEVELS, Level, upto
 from raycert.cases.model import SOLIDS, type_of
 from raycert.cases.row import GoldenRow
-from raycert.oracle.certify.grading import Grade
+from raycert.oracle.certify.grading import Grade, usual
 from raycert.oracle.certify.verdict import Touches, by_solid
 
 Kind = Literal["id", "family", "convention"]
@@ -48,8 +52,12 @@ class Expectation:
     def __str__(self) -> str:
         return f"{self.kind} {self.name}" if self.kind != "id" else self.name
 
+    def covers(self, failed: Level) -> bool:
+        """Whether a failure from this level on is no worse than expected."""
+        return self.level is None or LEVELS.index(failed) >= LEVELS.index(self.level)
 
-@dataclass(frozen=True, slots=True)
+
+@dataclass(frozen=True)
 class Expectations:
     """The entries of a file, in its order; no two are about the same."""
 
@@ -66,7 +74,15 @@ class Expectations:
 
     def of(self, kind: Kind) -> dict[str, Expectation]:
         """Return the entries of a kind by name."""
-        return {entry.name: entry for entry in self.entries if entry.kind == kind}
+        return self._by_kind[kind]
+
+    @cached_property
+    def _by_kind(self) -> dict[Kind, dict[str, Expectation]]:
+        return {kind: {e.name: e for e in self.entries if e.kind == kind} for kind in KINDS}
+
+    def about(self, row: GoldenRow) -> Expectation | None:
+        """Return the entry about a row: the one for its id before the one for its family."""
+        return self.of("id").get(row.id) or self.of("family").get(row.family)
 
 
 def read(text: str, file: str = "expectations") -> Expectations:
@@ -163,7 +179,7 @@ def _quoted(text: str) -> str:
     return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
-Found = Literal["met", "idle", "passes", "unmatched"]
+State = Literal["met", "idle", "passes", "unmatched"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,18 +196,12 @@ class Matched:
 
     @property
     def accepted(self) -> bool:
-        """Tell whether the run failed as expected and in no other way."""
+        """Whether the run failed as expected and in no other way."""
         return not (self.unexpected_passes or self.unmatched or self.new)
 
     def as_json(self, file: str) -> dict[str, Any]:
         """Return this as a part of the certificate."""
-        return {
-            "file": file,
-            "expected": list(self.expected),
-            "unexpected_passes": list(self.unexpected_passes),
-            "unmatched": list(self.unmatched),
-            "new": list(self.new),
-        }
+        return {"file": file, **{name: list(entries) for name, entries in asdict(self).items()}}
 
 
 def failed_level(grade: Grade, asked: Level) -> Level | None:
@@ -215,12 +225,12 @@ def match(
     """
     run = _Run(grades, level, convention, {row.id: row for row in known})
     met, new = run.failures(expectations)
-    found = [(entry, *run.found(entry)) for entry in expectations.entries]
-    said = {
-        kind: tuple(f"{entry}: {why}" for entry, state, why in found if state == kind)
-        for kind in ("passes", "unmatched")
-    }
-    return Matched(tuple(met), said["passes"], said["unmatched"], tuple(new))
+    states = [(entry, *run.state(entry)) for entry in expectations.entries]
+    passes, unmatched = (
+        tuple(f"{entry}: {why}" for entry, state, why in states if state == wrong)
+        for wrong in ("passes", "unmatched")
+    )
+    return Matched(tuple(met), passes, unmatched, tuple(new))
 
 
 def record(
@@ -237,40 +247,17 @@ def record(
     """
     run = _Run(grades, level, convention, {row.id: row for row in known})
     reason = f"known failure, recorded by certify --write-expectations on corpus {corpus}"
-    kept = [e for e in (old or Expectations()).entries if run.found(e)[0] in ("met", "idle")]
-    about = _About.of(Expectations(tuple(kept)))
+    kept = [e for e in (old or Expectations()).entries if run.state(e)[0] in ("met", "idle")]
+    known_by = Expectations(tuple(kept))
     for id, failed in run.failing.items():
-        entry = about.row(run.rows[id])
-        if entry is None or not _covers(entry, failed):
+        entry = known_by.about(run.rows[id])
+        if entry is None or not entry.covers(failed):
             kept = [e for e in kept if (e.kind, e.name) != ("id", id)]
             kept.append(Expectation("id", id, reason, level=failed))
     for name in run.against:
-        if name not in about.conventions:
+        if name not in known_by.of("convention"):
             kept.append(Expectation("convention", name, reason))
     return Expectations(tuple(kept))
-
-
-@dataclass(frozen=True, slots=True)
-class _About:
-    """The entries by what they are about."""
-
-    ids: dict[str, Expectation]
-    families: dict[str, Expectation]
-    conventions: dict[str, Expectation]
-
-    @classmethod
-    def of(cls, expectations: Expectations) -> _About:
-        of = expectations.of
-        return cls(of("id"), of("family"), of("convention"))
-
-    def row(self, row: GoldenRow) -> Expectation | None:
-        """Return the entry about a row: the one for its id before the one for its family."""
-        return self.ids.get(row.id) or self.families.get(row.family)
-
-
-def _covers(entry: Expectation, failed: Level) -> bool:
-    """Tell whether a failure from this level on is no worse than expected."""
-    return entry.level is None or LEVELS.index(failed) >= LEVELS.index(entry.level)
 
 
 @dataclass(frozen=True)
@@ -285,7 +272,7 @@ class _Run:
     @cached_property
     def rows(self) -> dict[str, GoldenRow]:
         """Return the rows graded that are part of a level."""
-        return {g.row.id: g.row for g in self.grades if g.row.tier != "range"}
+        return {g.row.id: g.row for g in usual(self.grades)}
 
     @cached_property
     def all(self) -> dict[str, GoldenRow]:
@@ -302,8 +289,8 @@ class _Run:
     @cached_property
     def failing(self) -> dict[str, Level]:
         """Return the rows that fail, each with the lowest level."""
-        found = ((g.row.id, failed_level(g, self.level)) for g in self.grades)
-        return {id: failed for id, failed in found if failed}
+        levels = ((g.row.id, failed_level(g, self.level)) for g in self.grades)
+        return {id: failed for id, failed in levels if failed}
 
     @cached_property
     def against(self) -> dict[str, str]:
@@ -313,37 +300,37 @@ class _Run:
 
     def failures(self, expectations: Expectations) -> tuple[list[str], list[str]]:
         """Return the failures that meet an entry, and those that do not."""
-        about, met, new = _About.of(expectations), list[str](), list[str]()
+        met, new = list[str](), list[str]()
         for id, failed in self.failing.items():
-            entry = about.row(self.rows[id])
+            entry = expectations.about(self.rows[id])
             if entry is None:
                 new.append(id)
-            elif _covers(entry, failed):
+            elif entry.covers(failed):
                 met.append(id)
             else:
                 new.append(f"{id}: fails {failed}, expected to fail from {entry.level} on")
         for name, way in self.against.items():
             text = f"{name}: convention is {way}, not {self.convention}"
-            (met if name in about.conventions else new).append(text)
+            (met if name in expectations.of("convention") else new).append(text)
         return met, new + self._undecided()
 
     def _undecided(self) -> list[str]:
         """Return the types of solid whose rows do not tell of a level; they refuse a run too."""
         if not self.rows:
             return ["nothing was tested"]
-        found = []
+        lines = []
         for group in by_solid(self.grades):
             for level in upto(self.level):
                 tally = group.tally(level)
                 if not tally.passed and not tally.failed:
-                    found.append(f"{group.name}: no row decides {level}")
+                    lines.append(f"{group.name}: no row decides {level}")
                     break
-        return found
+        return lines
 
-    def found(self, entry: Expectation) -> tuple[Found, str]:
+    def state(self, entry: Expectation) -> tuple[State, str]:
         """Return what the run says of an entry, and why."""
         if entry.kind == "convention":
-            return self._found_convention(entry)
+            return self._state_of_convention(entry)
         about = self._named[entry.kind].get(entry.name, [])
         counted = [row for row in about if row.tier != "range"]
         if not counted:
@@ -358,11 +345,11 @@ class _Run:
             return "idle", ""
         if not failed:
             return "passes", f"passes {entry.level or self.level}"
-        if not any(_covers(entry, level) for level in failed):
+        if not any(entry.covers(level) for level in failed):
             return "idle", ""  # worse than expected: that is among the new failures
         return "passes", f"passes {entry.level}, fails {min(failed, key=LEVELS.index)}"
 
-    def _found_convention(self, entry: Expectation) -> tuple[Found, str]:
+    def _state_of_convention(self, entry: Expectation) -> tuple[State, str]:
         if entry.name in self.against:
             return "met", ""
         about = [row for row in self.all.values() if type_of(row.solid) == entry.name]
