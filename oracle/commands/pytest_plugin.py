@@ -93,9 +93,9 @@ class FamilyTest(pytest.Function):
             campaign.check(name, None)
 
         call = each_in_a_subtest if has_subtests else all_in_one
-        made: FamilyTest = cls.from_parent(parent, name=name, callobj=call)
-        made.campaign = campaign
-        return made
+        test: FamilyTest = cls.from_parent(parent, name=name, callobj=call)
+        test.campaign = campaign
+        return test
 
     def reportinfo(self) -> tuple[str, None, str]:
         """Return where the test is: in no file."""
@@ -168,22 +168,23 @@ class Campaign:
     def _match(self, grades: Sequence[Grade]) -> Matched:
         from raycert.oracle.certify.known import match
 
-        level, convention = self.plan.level, self.plan.convention
-        return match(self.expectations, grades, level, convention, self.prepared.known)
+        plan = self.plan
+        return match(self.expectations, grades, plan.level, plan.convention, self.prepared.known)
 
     def _failures(self, family: str, matched: Matched) -> Iterator[tuple[str, str]]:
         """Yield (name, text) of what failed and was not expected to."""
         from raycert.oracle.certify.known import failed_level
 
         grades = {grade.row.id: grade for grade in self.grades[family]}
-        for said in matched.new:
-            grade = grades.get(said.partition(": ")[0])
+        for text in matched.new:
+            name = text.partition(": ")[0]
+            grade = grades.get(name)
             if grade is not None and (level := failed_level(grade, self.plan.level)):
-                yield grade.row.id, f"{said}\n{self._told(grade, level)}"
-            elif "no row decides" not in said and said != "nothing was tested":
-                yield said.partition(": ")[0], said  # a convention; families may decide nothing
+                yield name, f"{text}\n{self._shown(grade, level)}"
+            elif "no row decides" not in text and text != "nothing was tested":
+                yield name, text  # a convention; families may decide nothing
 
-    def _told(self, grade: Grade, level: Level) -> str:
+    def _shown(self, grade: Grade, level: Level) -> str:
         """Return what a person needs to see of a failure, with the command that repeats it."""
         words = shlex.split(self.session.config.getoption("--raycert"))
         fresh = self.plan.fresh.options() if self.plan.fresh else ()
@@ -212,7 +213,7 @@ def _stale(matched: Matched, family: str, known: Expectations) -> Iterator[tuple
 
 
 def _is_about(name: str, expected: Iterable[str]) -> bool:
-    """Tell whether an entry's name is that of an expected failure, its family or its solid."""
+    """Whether an entry's name is that of an expected failure, its family or its solid."""
     return any(said == name or said.startswith((f"{name}/", f"{name}: ")) for said in expected)
 
 
