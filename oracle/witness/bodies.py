@@ -60,11 +60,6 @@ class Side(Enum):
     INNER = -1
     OUTER = 1
 
-    @property
-    def other(self) -> Side:
-        """Return the opposite side."""
-        return Side(-self.value)
-
 
 @dataclass(frozen=True, slots=True)
 class Fineness:

@@ -248,43 +248,30 @@ def sign(box: Box, exact: Fraction) -> int:
 
 
 def same(one: Enclosed, two: Enclosed) -> bool:
-    """Whether two ends are one number, by the greatest common divisor of the polynomials."""
-    common = _gcd(one.polynomial, two.polynomial)
-    if len(common) == 1:
-        return False
-    if len(common) == 2:
-        rational = -common[1] / common[0]
-        return _is(one, rational) and _is(two, rational)
-    a, b, c = common
-    return one.root == two.root or b * b == 4 * a * c
+    """Whether two ends are one number: their polynomials share a root, and both stand for it.
+
+    Different polynomials of degree 2 at most share one root at most, and that is rational: the root
+    of the linear one, or of the difference of two monic quadratics.
+    """
+    p, q = ([c / end.polynomial[0] for c in end.polynomial[1:]] for end in (one, two))
+    if p == q:
+        return one.root == two.root or (len(p) == 2 and p[0] * p[0] == 4 * p[1])
+    if len(p) == len(q):
+        if p[0] == q[0] or len(p) == 1:
+            return False
+        shared = (q[1] - p[1]) / (p[0] - q[0])
+    else:
+        shared = -min(p, q, key=len)[0]
+    return _is(one, shared) and _is(two, shared)
 
 
-def _is(end: Enclosed, root: Fraction) -> bool:
-    """Whether an end is this root of its polynomial."""
+def _is(end: Enclosed, x: Fraction) -> bool:
+    """Whether an end is x: a root of its polynomial, and the one that it stands for."""
     if len(end.polynomial) == 2:
-        return True
-    other = -end.polynomial[1] / end.polynomial[0] - root
-    return root == other or end.root == int(root > other)
-
-
-def _gcd(one: Polynomial, two: Polynomial) -> Polynomial:
-    """Return a greatest common divisor, by Euclid."""
-    while two:
-        one, two = two, _remainder(one, two)
-    return one
-
-
-def _remainder(one: Polynomial, two: Polynomial) -> Polynomial:
-    """Return the remainder of one by two; () is zero."""
-    rest = list(one)
-    while len(rest) >= len(two):
-        factor = rest[0] / two[0]
-        for i, coefficient in enumerate(two):
-            rest[i] -= factor * coefficient
-        rest.pop(0)
-    while rest and rest[0] == 0:
-        rest.pop(0)
-    return tuple(rest)
+        return end.polynomial[0] * x + end.polynomial[1] == 0
+    a, b, c = end.polynomial
+    other = -b / a - x
+    return a * x * x + b * x + c == 0 and (x == other or end.root == int(x > other))
 
 
 def distinct(ends: Iterable[Enclosed]) -> list[Enclosed]:

@@ -193,7 +193,7 @@ def _build(solid: Solid, view: Viewport, fineness: Fineness, side: Side) -> Mani
             kind = OpType.Subtract
         case _:
             return _leaf(solid, view, fineness, side)
-    away = side.other if isinstance(solid, Difference) else side
+    away = Side(-side.value) if isinstance(solid, Difference) else side
     parts = [_build(part, view, fineness, away if i else side) for i, part in enumerate(solid.of)]
     return Manifold.batch_boolean(parts, kind)
 

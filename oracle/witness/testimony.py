@@ -74,7 +74,7 @@ def compared(
     `fault` says what is wrong with an end of the answer, None if it is the end found, and `agreed`
     why the two lists are one.
     """
-    text = "[" + ", ".join(f"[{show(a)}, {show(b)}]" for a, b in found) + "]"
+    text = listed(found, show)
     if len(found) != len(answer):
         why = f"{len(found)} intervals, and the answer has {len(answer)}"
         return Testimony("disagreed", text, why)
@@ -85,9 +85,14 @@ def compared(
     return Testimony("agreed", text, agreed)
 
 
+def listed(pairs: Sequence[tuple[T, T | None]], show: Callable[[T | None], str]) -> str:
+    """Return a list for people, each end as `show` has it."""
+    return "[" + ", ".join(f"[{show(a)}, {show(b)}]" for a, b in pairs) + "]"
+
+
 def show(intervals: Intervals) -> str:
     """Return an exact list for people: short fractions as they are, other numbers to 20 digits."""
-    return "[" + ", ".join(f"[{show_end(a)}, {show_end(b)}]" for a, b in intervals) + "]"
+    return listed(intervals, show_end)
 
 
 def show_end(t: Surd | None) -> str:
