@@ -16,11 +16,8 @@ binary32) and is taken as exactly the number it is; -0 is 0.
     formats     binary64 and binary32, and how a number is spelled
     vectors     three numbers as a vector
     numbers     a ray and a solid as a list of numbers, neighbours on the grid of a format
-    forms       rays and solids as JSON objects
-    lines       the line of a question, spelled straight into text
-    protocol    the messages of the line protocol
-    serve       the implementation's side of it
-    hits        the first hit, or whether there is one, of an interval list
+    forms       rays and solids as JSON objects, and the line that asks about them
+    protocol    the messages of the line protocol, and the implementation's side of it
     scene       solids, a camera and a size, and the ray of each pixel
     table       the three tables of the case analysis, as data
     levels      tiers and levels

@@ -44,7 +44,7 @@ class Format:
         return math.ldexp(1.0, self.least + self.precision - 1)
 
     def holds(self, number: float) -> bool:
-        """Tell whether `number` is one of this format's (infinities included)."""
+        """Whether `number` is one of this format's (infinities included)."""
         return not math.isnan(number) and self.nearest(number) == number
 
     def nearest(self, number: float) -> float:

@@ -1,4 +1,4 @@
-"""Rays and solids as JSON objects, both ways.
+"""Rays and solids as JSON objects, both ways, and the line that asks about them.
 
 Reading refuses every malformed object with `Refused`, whose path leads to the field:
 `solid.of[1].radius`. Reals are spelled as `raycert.cases.formats` says.
@@ -6,12 +6,26 @@ Reading refuses every malformed object with `Refused`, whose path leads to the f
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable, Mapping
 from dataclasses import fields
+from functools import cache
+from json.encoder import encode_basestring_ascii
 from typing import Any
 
 from raycert.cases.formats import BINARY64, Format, Spelling, parse, spell
-from raycert.cases.model import SOLIDS, VECTORS, Ray, Refused, Solid, real, type_of
+from raycert.cases.model import (
+    SOLIDS,
+    TYPE_NAMES,
+    VECTORS,
+    Ray,
+    Refused,
+    Solid,
+    Tree,
+    Vector,
+    real,
+    type_of,
+)
 
 Json = dict[str, Any]
 DEEPEST = 200
@@ -109,3 +123,60 @@ def _reader(spelling: Spelling, fmt: Format) -> Callable[[str, object], Any]:
         return tuple(number(item, f"{name}[{i}]") for i, item in enumerate(value))
 
     return read
+
+
+WriteNumber = Callable[[float], str]
+WriteVector = Callable[[Vector], str]
+_OBJECTS = {
+    kind: (
+        f'{{"type":"{name}"',
+        tuple((field.name, f',"{field.name}":') for field in fields(kind)),
+    )
+    for kind, name in TYPE_NAMES.items()
+}
+"""How the object of each type begins; its fields, each with what stands before its value."""
+
+
+def question(id: str, solid: Solid, ray: Ray, spelling: Spelling, fmt: Format = BINARY64) -> bytes:
+    """Return the line that asks one case, newline included.
+
+    To the byte what `json` would write of the forms, several times as fast: a run asks thousands.
+    """
+    number, vector = _writers(spelling, fmt)
+    text = (
+        f'{{"id":{encode_basestring_ascii(id)},"solid":{_solid_text(solid, number, vector)},'
+        f'"ray":{{"origin":{vector(ray.origin)},"direction":{vector(ray.direction)}}}}}\n'
+    )
+    return text.encode("ascii")
+
+
+@cache
+def _writers(spelling: Spelling, fmt: Format) -> tuple[WriteNumber, WriteVector]:
+    """Return what spells a number, and three in a list."""
+    if spelling == "decimal":
+        return float.__repr__, "[%r,%r,%r]".__mod__
+    if spelling == "hex":
+        return lambda x: f'"{x.hex()}"', _hex_vector
+    three, n = struct.Struct(f">3{fmt.pack[1:]}").pack, fmt.digits
+
+    def bits(vector: Vector) -> str:
+        digits = three(*vector).hex()
+        return f'["{digits[:n]}","{digits[n : 2 * n]}","{digits[2 * n :]}"]'
+
+    return lambda x: f'"{fmt.bits(x)}"', bits
+
+
+def _hex_vector(vector: Vector) -> str:
+    x, y, z = vector
+    return f'["{x.hex()}","{y.hex()}","{z.hex()}"]'
+
+
+def _solid_text(solid: Solid, number: WriteNumber, vector: WriteVector) -> str:
+    text, names = _OBJECTS[type(solid)]
+    if isinstance(solid, Tree):
+        parts = ",".join([_solid_text(part, number, vector) for part in solid.of])
+        return f'{text},"of":[{parts}]}}'
+    for name, before in names:
+        value = getattr(solid, name)
+        text += before + (number(value) if name == "radius" else vector(value))
+    return text + "}"

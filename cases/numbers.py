@@ -79,7 +79,7 @@ def usual(fmt: Format) -> int:
 
 
 def is_usual(probe: Probe, fmt: Format) -> bool:
-    """Tell whether no number is so large or small that a sound formula over- or underflows."""
+    """Whether no number is so large or small that a sound formula over- or underflows."""
     most = usual(fmt)
     return all(not x or abs(frexp(x)[1]) <= most for x in numbers(probe))
 

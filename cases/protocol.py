@@ -1,23 +1,28 @@
-"""The line protocol as data: the messages, and what is refused in them. No input or output here.
+"""The line protocol: its messages, what is refused in them, and the implementation's side of it.
 
     -> {"hello": 1}
     <- {"hello": 1, "name": "my tracer", ...}
     -> {"id": "7", "solid": {...}, "ray": {...}}
     <- {"id": "7", "intervals": [[2.0, 4.0]]}
 
-Each message is one line of JSON. The `id` is opaque to an implementation.
+Each message is one line of JSON. The `id` is opaque to an implementation, which brings a function
+`intersect(solid, ray) -> pairs of floats` for `serve` to answer with. Where its hello promises the
+first hit or a truth value, that is what the list says of it: lists are sorted and disjoint, and a
+start inside, or on the boundary, shows as a first interval that begins at 0.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+import sys
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from math import isinf, isnan
+from typing import Any, BinaryIO, Literal, TypeVar
 
 from raycert.cases.formats import BINARY64, FORMATS, SPELLINGS, Format, Spelling, parse, spell
-from raycert.cases.lines import question
-from raycert.cases.model import SOLIDS, Ray, Solid
+from raycert.cases.forms import question, read_ray, read_solid
+from raycert.cases.model import SOLIDS, Ray, Refused, Solid
 
 VERSION = 1
 Answers = Literal["intervals", "first", "any"]
@@ -28,6 +33,10 @@ TOUCHES = ("tangent", "wall", "cap", "rim", "start")
 """The kinds of touch that a convention may keep or drop."""
 
 Pairs = tuple[tuple[float, float], ...]
+Intersect = Callable[[Solid, Ray], Iterable[tuple[float, float]]]
+T = TypeVar("T", bound=float)
+ask = question
+"""The line that asks one case."""
 
 
 class BadLine(ValueError):
@@ -87,11 +96,6 @@ def decode(line: bytes) -> dict[str, Any]:
 def _shown(line: bytes) -> str:
     text = line.decode("utf-8", "replace").rstrip("\n")
     return repr(text if len(text) <= 80 else text[:77] + "...")
-
-
-def ask(id: str, solid: Solid, ray: Ray, spelling: Spelling, fmt: Format) -> bytes:
-    """Return the line that asks one case."""
-    return question(id, solid, ray, spelling, fmt)
 
 
 def reply_intervals(id: str, pairs: Iterable[tuple[float, float]], hello: Hello) -> bytes:
@@ -250,3 +254,77 @@ def _pairs(message: dict[str, Any], hello: Hello, line: bytes) -> Pairs:
             a, b = _number(a, hello, line), _number(b, hello, line)
         read.append((a, b))
     return tuple(read)
+
+
+def first_end(pairs: Sequence[tuple[T, T]], from_inside: FromInside) -> tuple[int, int] | None:
+    """Return which end of a list is the first hit, pair and side; None for a miss.
+
+    From inside it is the enter, 0 (`zero`), the leave (`exit`; None if there is none), or a miss
+    (`miss`).
+
+    >>> first_end([(0.0, 2.0), (5.0, 6.0)], "exit")
+    (0, 1)
+    """
+    if not pairs:
+        return None
+    enter, leave = pairs[0]
+    if from_inside == "zero" or enter > 0:
+        return 0, 0
+    return (0, 1) if from_inside == "exit" and not isinf(leave) else None
+
+
+def first(pairs: Sequence[tuple[T, T]], from_inside: FromInside) -> T | None:
+    """Return the t of the first hit, or None for a miss."""
+    end = first_end(pairs, from_inside)
+    return None if end is None else pairs[end[0]][end[1]]
+
+
+def hit(pairs: Sequence[tuple[float, float]]) -> bool:
+    """Whether there is a hit at all; a touch is one.
+
+    >>> hit([(2.0, 2.0)])
+    True
+    """
+    return bool(pairs)
+
+
+def serve(
+    intersect: Intersect,
+    hello: Hello,
+    lines: Iterable[bytes] | None = None,
+    out: BinaryIO | None = None,
+) -> None:
+    """Answer every line until the input ends. A line that cannot be answered gets an `error`."""
+    lines = sys.stdin.buffer if lines is None else lines
+    out = sys.stdout.buffer if out is None else out
+    for line in lines:
+        out.write(answer(line, intersect, hello))
+        out.flush()
+
+
+def answer(line: bytes, intersect: Intersect, hello: Hello) -> bytes:
+    """Return the line that answers one line."""
+    try:
+        message = decode(line)
+    except BadLine as error:
+        return encode({"error": f"the line {error}"})
+    if "hello" in message:
+        return write_hello(hello)
+    id = message.get("id", "")
+    try:
+        solid = read_solid(message.get("solid"), "solid", hello.numbers, hello.format)
+        ray = read_ray(message.get("ray"), "ray", hello.numbers, hello.format)
+        return _reply(id, tuple(intersect(solid, ray)), hello)
+    except Refused as refusal:
+        return encode({"id": id, "error": str(refusal)})
+
+
+def _reply(id: str, pairs: Pairs, hello: Hello) -> bytes:
+    """Return the line that answers in the form that the hello promises."""
+    if any(isnan(enter) or isnan(leave) for enter, leave in pairs):
+        return encode({"id": id, "error": f"the answer holds NaN: {pairs!r:.200}"})
+    if hello.answers == "first":
+        return reply_first(id, first(pairs, hello.from_inside), hello)
+    if hello.answers == "any":
+        return reply_hit(id, hit(pairs))
+    return reply_intervals(id, pairs, hello)

@@ -30,6 +30,7 @@ from typing import Any, Literal
 
 from raycert.cases.forms import Json, read_solid, write_solid
 from raycert.cases.model import Ray, Refused, Solid, Union, Vector, real, vector
+from raycert.cases.vectors import cross, minus
 
 Kind = Literal["perspective", "orthographic"]
 EXTENT: dict[str, str] = {"perspective": "fov", "orthographic": "height"}
@@ -82,14 +83,14 @@ class Frame:
 
 def frame(camera: Camera) -> Frame:
     """Return the vectors of a camera, or refuse one that has none."""
-    forward = _unit(_minus(camera.look_at, camera.eye), "camera.look_at", "is at the eye")
-    across = _cross(forward, _unit(camera.up, "camera.up", "is zero"))
+    forward = _unit(minus(camera.look_at, camera.eye), "camera.look_at", "is at the eye")
+    across = cross(forward, _unit(camera.up, "camera.up", "is zero"))
     if math.hypot(*across) < FLATTEST:
         raise Refused("camera.up", "is along the line of sight")
     right = _unit(across, "camera.up", "is zero")
     half = camera.extent / 2
     scale = math.tan(math.radians(half)) if camera.kind == "perspective" else half
-    return Frame(camera.kind, camera.eye, forward, right, _cross(right, forward), scale)
+    return Frame(camera.kind, camera.eye, forward, right, cross(right, forward), scale)
 
 
 def pixel_ray(frame: Frame, size: tuple[int, int], column: int, row: int) -> Ray:
@@ -246,15 +247,3 @@ def _unit(a: Vector, path: str, what: str) -> Vector:
     if not math.isfinite(length):
         raise Refused(path, "is too far from the eye")
     return (a[0] / length, a[1] / length, a[2] / length)
-
-
-def _minus(a: Vector, b: Vector) -> Vector:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )

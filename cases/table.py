@@ -1,6 +1,6 @@
-"""The case table: the seed's three tables as data.
+"""The case table: the three tables that cases/README.md derives, as data.
 
-A row is a name, the parts of the seed that derive it, its condition, and the pairs it emits.
+A row is a name, the steps of the problem that derive it, its condition, and the pairs it emits.
 A condition is a list of (quantity, relation to zero); it holds if all of them do. `Table.decide`
 asks for the sign of a quantity only once the conditions before it hold: a row never asks for a
 quantity that is undefined where it stands.
@@ -45,7 +45,7 @@ Signs = tuple[tuple[str, int], ...]
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """One row of a table. `pairs` is what the seed prints, its two slips mended."""
+    """One row of a table: `parts` are the steps of its problem, `pairs` what it emits."""
 
     name: str
     parts: str
@@ -54,7 +54,7 @@ class Row:
 
 
 class Table(tuple[Row, ...]):
-    """The rows of a table, in the seed's order; of any signs, exactly one row holds.
+    """The rows of a table, in the order derived; of any signs, exactly one row holds.
 
     That the rows exclude one another and leave nothing out is proved in tests/cases/test_table.py.
     """
@@ -127,7 +127,7 @@ PROBLEM_1 = Table(
         "{(t1, t2)}",
     ),
 )
-"""The infinite cylinder. The seed prints its last two pairs as {0, t2} and {t1, t2}."""
+"""The infinite cylinder."""
 
 PROBLEM_2 = Table(
     Row("AE", "2 (g)", (("up", "<= 0"), ("uq", ">= 0"), ("vn", "= 0")), "{(0, inf)}"),
@@ -172,7 +172,7 @@ def comparison_names(signs: dict[str, int]) -> tuple[str, ...]:
 
 
 # What keeps a combination of the three comparisons from occurring, as (reason, forbids). Each
-# `forbids` is told the rows of Problem 1 and 2 and the signs of a-c, b-d and m-n. That these
+# `forbids` is given the rows of Problem 1 and 2 and the signs of a-c, b-d and m-n. That these
 # leave exactly the combinations that occur is proved by exhaustion in the tests.
 _START_0 = {"along-inside", "from-inside"}
 _ENTERS = {"BG", "CF"}

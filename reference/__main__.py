@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from importlib.metadata import PackageNotFoundError, version
 
-from raycert.cases.protocol import Hello
-from raycert.cases.serve import serve
+from raycert.cases.protocol import Hello, serve
 from raycert.reference.tracer import intersect
 
 

@@ -40,8 +40,7 @@ def serve(name: str, precision: str, numbers: str) -> None:
 def _serve_oracle(precision: str, numbers: Any) -> None:
     """Answer every case with the exact list, correctly rounded to the precision."""
     from raycert.cases.formats import FORMATS
-    from raycert.cases.protocol import Hello
-    from raycert.cases.serve import serve
+    from raycert.cases.protocol import Hello, serve
     from raycert.oracle.exact.intervals import expected
     from raycert.oracle.exact.trace import trace
 

@@ -49,7 +49,7 @@ class Surface:
 
     @property
     def along(self) -> bool:
-        """Tell whether the whole ray lies on the surface."""
+        """Whether the whole ray lies on the surface."""
         return self.a == self.b == self.c == 0
 
     def leaves_at_0(self) -> bool:
@@ -57,7 +57,7 @@ class Surface:
         return self.b > 0 or self.along
 
     def double(self) -> bool:
-        """Tell whether the line touches the surface in a double root."""
+        """Whether the line touches the surface in a double root."""
         return self.a != 0 and self.b * self.b == 4 * self.a * self.c
 
 

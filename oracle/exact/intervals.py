@@ -95,12 +95,12 @@ def subtract(one: Intervals, two: Intervals) -> Intervals:
 
 
 def contains(outer: Intervals, inner: Intervals) -> bool:
-    """Tell whether every interval of `inner` lies in one of `outer`."""
+    """Whether every interval of `inner` lies in one of `outer`."""
     return all(any(a <= x and y <= b for a, b in outer) for x, y in inner)
 
 
 def meets(one: Interval, two: Interval) -> bool:
-    """Tell whether two closed intervals have a point in common."""
+    """Whether two closed intervals have a point in common."""
     return max(one[0], two[0]) <= min(one[1], two[1])
 
 

@@ -46,8 +46,8 @@ class Quadric(NamedTuple):
     def disc(self) -> int:
         """Return b^2 - a c.
 
-        By Lagrange's identity this is W (r^2 |v x w|^2 - det(v, w, y)^2) for a cylinder, the seed's
-        r^2 |vbar|^2 - |vbar x ybar|^2 times W^2.
+        By Lagrange's identity this is W (r^2 |v x w|^2 - det(v, w, y)^2) for a cylinder, which is
+        W^2 times the r^2 |vbar|^2 - |vbar x ybar|^2 of Problem 1.
         """
         return self.b * self.b - self.a * self.c
 
@@ -107,5 +107,5 @@ def ball(solid: Sphere, grid: Grid) -> Quadric:
 
 
 def plane_signs(p_plane: Plane, q_plane: Plane) -> dict[str, int]:
-    """Return the signs of the seed's Problem 2: (u - p).n, (u - q).n and v.n with n along p - q."""
+    """Return the signs of Problem 2: (u - p).n, (u - q).n and v.n with n along p - q."""
     return {"up": sign(p_plane.c), "uq": -sign(q_plane.c), "vn": sign(p_plane.b)}

@@ -194,7 +194,7 @@ class Surd:
 
     @property
     def finite(self) -> bool:
-        """Tell whether this is a number and not infinity."""
+        """Whether this is a number and not infinity."""
         return self.z != 0
 
     def rational(self) -> Fraction | None:

@@ -1,6 +1,6 @@
 """The whole answer: the interval list of a solid along a ray, and the rows that gave it.
 
-The seed's tables are followed row by row: each decision names the row taken and the signs that
+The case table is followed row by row: each decision names the row taken and the signs that
 decided it, as they were found. Booleans combine the lists of their parts.
 """
 

@@ -18,8 +18,7 @@ from math import inf, isinf, isnan
 from typing import Any, Protocol, TypeVar
 
 from raycert.cases.accept import Accept, Numbers
-from raycert.cases.hits import first_end
-from raycert.cases.protocol import FromInside, Hello, Reply
+from raycert.cases.protocol import FromInside, Hello, Reply, first_end
 from raycert.oracle.exact.surd import ZERO, dyadic
 from raycert.oracle.judge.levels import Enclosures, Judge
 from raycert.oracle.judge.moved import Measure

@@ -17,23 +17,25 @@ from jsonschema import Draft202012Validator
 
 from raycert.cases import protocol
 from raycert.cases.formats import BINARY64, FORMATS, SPELLINGS, Spelling
-from raycert.cases.hits import first, hit
 from raycert.cases.model import Cylinder, Ray, Refused, Sphere
 from raycert.cases.protocol import (
     ANSWERS,
     BadLine,
     Hello,
+    answer,
     ask,
     convention,
     encode,
+    first,
+    hit,
     read_hello,
     read_reply,
     reply_first,
     reply_hit,
     reply_intervals,
+    serve,
     write_hello,
 )
-from raycert.cases.serve import answer, serve
 from raycert.cases.strategies import solids
 from raycert.oracle.commands.harness import templates
 from raycert.reference import tracer

@@ -131,7 +131,7 @@ def client(folder: Path, name: str) -> list[str]:
     script.write_text(
         "from raycert.oracle.zoo.inhabitants import BY_NAME\n"
         "from raycert.cases.protocol import Hello\n"
-        "from raycert.cases.serve import serve\n"
+        "from raycert.cases.protocol import serve\n"
         f"serve({name}, Hello('planted', solids={SOLIDS!r}))\n"
     )
     return [sys.executable, str(script)]

@@ -85,7 +85,7 @@ def test_bad_options_say_what_to_write(options: tuple[str, ...], words: str) -> 
 @pytest.mark.parametrize("mode", ["zero", "exit", "miss"])
 def test_a_first_hit_client_is_granted_and_one_with_the_other_mode_is_not(mode: str) -> None:
     Path("firsts.py").write_text(
-        "from raycert.cases.hits import first\nfrom raycert.reference.tracer import intersect\n"
+        "from raycert.cases.protocol import first\nfrom raycert.reference.tracer import intersect\n"
         f"hello = {{'name': 'firsts', 'answers': 'first', 'from_inside': {mode!r}}}\n"
         f"def good(solid, ray): return first(intersect(solid, ray), {mode!r})\n"
         "def bad(solid, ray):\n"
@@ -116,7 +116,7 @@ def test_who_crashes_and_hangs_is_graded_on_all_the_others() -> None:
     """Each hundredth case crashes it, each five-hundredth hangs it, whenever it is asked."""
     Path("rough.py").write_text(
         "import os, sys, time\nfrom zlib import crc32\n"
-        "from raycert.cases.protocol import Hello\nfrom raycert.cases.serve import serve\n"
+        "from raycert.cases.protocol import Hello\nfrom raycert.cases.protocol import serve\n"
         "from raycert.reference.tracer import intersect\n"
         "def rough(solid, ray):\n"
         "    number = crc32(repr((solid, ray)).encode())\n"

@@ -6,8 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import cache
 
 from raycert.cases.formats import BINARY32
-from raycert.cases.hits import first_end
-from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello, Reply
+from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello, Reply, first_end
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.diagnosis import contradictions
 from raycert.oracle.certify.grading import Grade, grade

@@ -38,7 +38,7 @@ def planted(folder: Path, tracer: str, hello: str = "'planted'") -> tuple[str, .
     script.write_text(
         "from raycert.oracle.zoo.inhabitants import BY_NAME\n"
         "from raycert.cases.protocol import Hello\n"
-        "from raycert.cases.serve import serve\n"
+        "from raycert.cases.protocol import serve\n"
         f"serve({tracer}, Hello({hello}))\n"
     )
     return (sys.executable, str(script))

@@ -17,7 +17,7 @@ FAMILIES = ("behind", "rim", "start-inside")
 CLIENT = """
 import pathlib, sys
 from raycert.cases.protocol import Hello
-from raycert.cases.serve import serve
+from raycert.cases.protocol import serve
 from raycert.oracle.zoo.inhabitants import BY_NAME
 from raycert.oracle.zoo.tracer import BASE
 

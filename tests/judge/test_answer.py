@@ -10,9 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from raycert.cases.hits import first
 from raycert.cases.levels import LEVELS
-from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello, Reply
+from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello, Reply, first
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.verdict import Touches, verdict

@@ -8,8 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from raycert.cases.hits import first, hit
-from raycert.cases.protocol import FROM_INSIDE, FromInside
+from raycert.cases.protocol import FROM_INSIDE, FromInside, first, hit
 
 Pairs = list[tuple[float, float]]
 

@@ -11,8 +11,17 @@ import pytest
 
 from raycert.cases.formats import FORMATS, SPELLINGS, Spelling
 from raycert.cases.model import Cylinder, Ray, Solid
-from raycert.cases.protocol import FromInside, Hello, Pairs, Reply, ask, read_hello, read_reply
-from raycert.cases.serve import answer, serve
+from raycert.cases.protocol import (
+    FromInside,
+    Hello,
+    Pairs,
+    Reply,
+    answer,
+    ask,
+    read_hello,
+    read_reply,
+    serve,
+)
 
 CAN = Cylinder((0, 0, 0), (0, 0, 2), 1)
 ACROSS = Ray((-3, 0, 1), (1, 0, 0))

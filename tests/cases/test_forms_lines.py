@@ -9,8 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from raycert.cases.formats import FORMATS, SPELLINGS, Spelling
-from raycert.cases.forms import write_ray, write_solid
-from raycert.cases.lines import question
+from raycert.cases.forms import question, write_ray, write_solid
 from raycert.cases.protocol import encode
 from raycert.cases.strategies import rays, solids
 
