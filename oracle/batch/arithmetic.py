@@ -3,7 +3,7 @@
 A pair (h, l) stands for h + l, with |l| <= u |h|, u = 2^-53; a triple is three pairs. `two_sum` and
 `two_prod` are exact, with round to nearest and no under- or overflow; all else has a bound, in
 units of u^2, which its docstring derives. So has no product anything but the one rounding that is
-written: contraction of a * b + c must be off (`trust` looks). What is exact may be computed in
+written: contraction of a * b + c must be off (`engines` looks). What is exact may be computed in
 another way, and gives the same bits: the compiled engine has its own `two_prod`, by fma, and its
 own `larger` and `choose`.
 """
@@ -152,3 +152,32 @@ def heads(a: Triple) -> Singles:
 def size(a: Singles) -> Number:
     """Return the largest absolute part."""
     return larger(larger(abs(a[0]), abs(a[1])), abs(a[2]))
+
+
+def probe(x: Any) -> Any:
+    """Return what an engine makes of [1 + 2^-30, 2^-53, 2^-1074, 3, 1e300, 1 + 2^-52]."""
+    one, half, least, three, large, next_ = x[0], x[1], x[2], x[3], x[4], x[5]
+    p, e = two_prod(one, one)
+    s, r = two_sum(1.0 + 0.0 * one, half)
+    third = div((three, 0.0 * three), (next_, 0.0 * next_))
+    product = mul(third, (next_, 0.0 * next_))
+    two = root((three, 0.0 * three))
+    square = mul(two, two)
+    return (
+        p,
+        e,
+        one * one - (1.0 + 2.0**-29),
+        s,
+        r,
+        (1.0 + half) - 1.0,
+        (next_ + half) - 1.0,
+        (-1.0 - half) + 1.0,
+        least * 1.0,
+        (least * 2.0**600) * 2.0**-600,
+        large * large,
+        two_prod(large, 1.0 / large)[1] * 2.0**60,
+        (product[0] - three) + product[1],
+        (square[0] - three) + square[1],
+        np.float64(np.float32(next_)) - 1.0,
+        np.float64(np.float32(1.0 + 2.0**-24 + 0.0 * one)),
+    )

@@ -1,9 +1,13 @@
-"""Booleans of rounded interval lists, all lanes at once, where the rounding decides the order.
+"""Rounded interval lists, all lanes at once: their Booleans, and their rounding to binary32.
 
 Lists are events, sorted by lane and t: +1 where a pair enters, -1 where it leaves. Rounding to
 nearest is monotone, so that different rounded endpoints are in the order of the exact ones; a lane
 in which two are equal is not decided here, nor one with a pair of no length, so that no rule of
 closure is ever asked. Exceptions are 0, which is exactly the start, and infinity.
+
+Nothing is rounded twice: a double that is no midpoint of two binary32 rounds to binary32 as
+everything does that rounds to it. A midpoint is moved to the neighbour on the side where the exact
+endpoint lies; where that side is not known, the lane is not decided.
 """
 
 from __future__ import annotations
@@ -14,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from raycert.cases.model import Difference, Intersection, Tree, Union
-from raycert.oracle.batch.lanes import Floats, Mask
+from raycert.oracle.batch.lanes import HIT, KNOWN, UNSURE, Floats, Mask, Outcomes
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,3 +64,31 @@ def _inside(tree: Tree, parts: int, first: NDArray[np.intp], others: NDArray[np.
         case Difference():
             inside = (first > 0) & (others == 0)
     return inside
+
+
+def set_aside(found: Outcomes) -> None:
+    """Make what is found round to binary32 as the exact endpoints do, or not decided."""
+    hit = found.state == HIT
+    for value, side in ((found.enter, found.before), (found.leave, found.after)):
+        value[:], clear = aside(value, side)
+        found.state[hit & ~clear] = UNSURE
+
+
+def aside(value: Floats, side: Floats) -> tuple[Floats, Mask]:
+    """Return values that round to binary32 as endpoints of that side do, and which they are."""
+    down, up = np.nextafter(value, -np.inf), np.nextafter(value, np.inf)
+    left, right = np.float64(np.float32(down)), np.float64(np.float32(up))
+    middle = (left != right) & (0.5 * (left + right) == value)
+    moved = np.where(middle & (side == 1), up, np.where(middle & (side == -1), down, value))
+    clear = (np.isfinite(right) & (~middle | (side != 0))) | (side == KNOWN)
+    return moved, clear | (value == 0) | np.isinf(value)
+
+
+def narrowed(
+    lane: NDArray[np.intp], enter: Floats, leave: Floats
+) -> tuple[NDArray[np.intp], Floats, Floats]:
+    """Return the lists rounded to binary32, pairs that touch then joined."""
+    enter, leave = enter.astype(np.float32).astype(float), leave.astype(np.float32).astype(float)
+    apart = (lane[1:] != lane[:-1]) | (enter[1:] > leave[:-1])
+    starts, stops = np.append(True, apart)[: len(lane)], np.append(apart, True)[: len(lane)]
+    return lane[starts], enter[starts], leave[stops]

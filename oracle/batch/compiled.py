@@ -17,11 +17,11 @@ from typing import Any
 
 import numpy as np
 
-from raycert.oracle.batch import arithmetic, bounds, chunks, decide, formulas, probe
-from raycert.oracle.batch.lanes import UNSURE, Floats, Found
-from raycert.oracle.batch.plan import BALL, CAPPED_BALL, CAPPED_WALL, WALL, Plan
+from raycert.oracle.batch import arithmetic, chunks, decide, formulas
+from raycert.oracle.batch.lanes import UNSURE, Floats, Outcomes
+from raycert.oracle.batch.leaf import BALL, CAPPED_BALL, CAPPED_WALL, WALL, LeafPlan
 
-SOURCES: tuple[ModuleType, ...] = (arithmetic, bounds, formulas, decide, probe, chunks)
+SOURCES: tuple[ModuleType, ...] = (arithmetic, formulas, decide, chunks)
 CURVED = {BALL: 1, CAPPED_BALL: 1, WALL: 2, CAPPED_WALL: 2}
 OUTER = ("run", "probe", "load", "screen", "solve", "join", *(n for n in vars(chunks) if "_" in n))
 """What is called a chunk at a time; all else is part of its caller."""
@@ -38,7 +38,7 @@ def cache_folder() -> Path:
 
 @cache
 def compiled(name: str = "run") -> Any:
-    """Return a function of `chunks` or `probe` compiled. Raises `ImportError` without numba."""
+    """Return a function of `chunks`, or the probe, compiled. Raises `ImportError` without numba."""
     return _functions()[name]
 
 
@@ -149,12 +149,12 @@ def _two_prod_by_fma() -> Any:
     return two_prod
 
 
-def leaf_block(plan: Plan, rays: Floats) -> Found:
+def leaf_block(plan: LeafPlan, rays: Floats) -> Outcomes:
     """Return what both fast rungs decide of a block of rays, given as six rows."""
     n = rays.shape[1]
     if plan.reason:
-        return Found.unsure(n)
+        return Outcomes.unsure(n)
     state, rung, ends = np.full(n, UNSURE, np.uint8), np.zeros(n, np.uint8), np.empty((4, n))
     kind = CURVED.get(plan.kind, 0)
     compiled()(rays, plan.constants, kind, plan.planes, state, rung, ends)
-    return Found(state, rung, *ends)
+    return Outcomes(state, rung, *ends)

@@ -1,4 +1,4 @@
-"""What becomes of a lane, without branches: for arrays in `vector`, and compiled in `chunks`.
+"""What becomes of a lane, without branches: for arrays in `lanes`, and compiled in `chunks`.
 
 States are 0.0 for a miss, 1.0 for one pair, 2.0 for not decided. An endpoint comes with its `side`:
 1.0 or -1.0 where the exact endpoint certainly is above or below the rounded one, 0.0 where that is
@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 
 from raycert.oracle.batch.arithmetic import Number, Singles, Triple, choose, larger, size
-from raycert.oracle.batch.bounds import U, cross_bound
 from raycert.oracle.batch.formulas import (
     Bounded2,
+    U,
     away,
+    cross_bound,
     cross_plain,
     divisor,
     ends,

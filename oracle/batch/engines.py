@@ -1,17 +1,86 @@
-"""Which engine answers, whether its floating point can be trusted, and why not."""
+"""Which engine answers, and whether its floating point is what the proofs need, asked beforehand.
+
+A compiler that contracts a * b - c to one rounding, a processor that flushes subnormals to 0, or
+another rounding mode break `two_sum`, `two_prod` and the rounding test. Each changes one of the
+results of `arithmetic.probe`; what they must be is computed here in fractions.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cache
+from math import inf
+from typing import Any
 
-from raycert.oracle.batch import compiled, vector
-from raycert.oracle.batch.lanes import Floats, Found
-from raycert.oracle.batch.plan import Plan
-from raycert.oracle.batch.trust import untrustworthy
+import numpy as np
 
-LeafBlock = Callable[[Plan, Floats], Found]
+from raycert.oracle.batch import compiled, lanes
+from raycert.oracle.batch.arithmetic import probe
+from raycert.oracle.batch.lanes import Floats, Outcomes
+from raycert.oracle.batch.leaf import LeafPlan
+
+INPUT = (1 + 2.0**-30, 2.0**-53, 2.0**-1074, 3.0, 1e300, 1 + 2.0**-52)
+Probe = Callable[[Any], Sequence[float]]
+
+
+def wanted() -> list[tuple[str, float, float]]:
+    """Return for each result of `probe` what it shows, and the two numbers it lies between."""
+    one, large = Fraction(INPUT[0]), Fraction(INPUT[4])
+    square = float(one * one)
+    rest = float(one * one - Fraction(square))
+    inverse = Fraction(1 / INPUT[4])
+    error = float((large * inverse - Fraction(INPUT[4] * (1 / INPUT[4]))) * 2**60)
+    tiny = 64 * 2.0**-106
+    exact = [
+        ("a product is rounded to nearest", square),
+        ("the error of a product", rest),
+        ("a product and a difference are two roundings", square - (1.0 + 2.0**-29)),
+        ("a tie rounds to even", 1.0),
+        ("the error of a sum", INPUT[1]),
+        ("a tie rounds to even, from above", 0.0),
+        ("a tie rounds to even, upwards", 2.0**-51),
+        ("a negative tie rounds to even", 0.0),
+        ("subnormal numbers are kept", INPUT[2]),
+        ("subnormal results are kept", INPUT[2]),
+        ("overflow is infinite", inf),
+        ("the error of a product of extremes", error),
+    ]
+    bounded = [("a double-double quotient", -tiny, tiny), ("a double-double root", -tiny, tiny)]
+    singles = [("binary32 rounds to nearest", 0.0), ("a tie of binary32 rounds to even", 1.0)]
+    return [
+        *((text, x, x) for text, x in exact),
+        *bounded,
+        *((text, x, x) for text, x in singles),
+    ]
+
+
+WANTED = tuple(wanted())
+
+
+def untrustworthy(run: Probe = probe) -> str:
+    """Return what a probe finds wrong, or an empty text."""
+    with np.errstate(all="ignore"):
+        results = [float(np.asarray(x).ravel()[0]) for x in run(_inputs(run))]
+    for (text, low, high), x in zip(WANTED, results, strict=True):
+        if not low <= x <= high:
+            return f"{text}: {x!r}"
+    return ""
+
+
+def _inputs(run: Probe) -> Any:
+    """Return the input as NumPy's lanes, or as the compiled ones'."""
+    rows = np.array([INPUT] * 16).T
+    return rows if run is probe else rows[:, 0].copy()
+
+
+def trustworthy(run: Probe = probe) -> bool:
+    """Tell whether the floating point of an engine is what the proofs need."""
+    return not untrustworthy(run)
+
+
+LeafBlock = Callable[[LeafPlan, Floats], Outcomes]
 ENGINES = ("auto", "numpy", "numba")
 
 
@@ -49,7 +118,7 @@ def engine_of(name: str) -> Engine:
 
 @cache
 def _numpy() -> Engine:
-    return _checked("numpy", vector.leaf_block, untrustworthy())
+    return _checked("numpy", lanes.leaf_block, untrustworthy())
 
 
 @cache
@@ -63,7 +132,7 @@ def _checked(name: str, run: LeafBlock, fault: str) -> Engine:
     return Engine(name, _nothing, False, f"{name}: {fault}; every lane in integers")
 
 
-def _nothing(plan: Plan, rays: Floats) -> Found:
+def _nothing(plan: LeafPlan, rays: Floats) -> Outcomes:
     """Decide nothing."""
     del plan
-    return Found.unsure(rays.shape[1])
+    return Outcomes.unsure(rays.shape[1])

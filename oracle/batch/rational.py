@@ -1,27 +1,211 @@
-"""The rational rung: lanes that only an exact zero decides, and endpoints that are exact ties.
+"""The rational rung: ties, zeros and touches that exact sums of doubles decide.
 
-A sign that double-double leaves open is tested for 0 exactly; a rounding that it leaves open for
-being exactly the midpoint: the residual of the face at the midpoint, in exact sums of doubles. The
-tests answer "certainly 0" or "not known"; so lanes with few significant bits, and scenes along the
-axes with all of theirs, are decided here, and never a wrong one.
+An expansion is a list of arrays whose exact sum is meant. Nothing here rounds what it decides on:
+`two_sum` and `two_prod` are exact in the range that `formulas` states. Every test is "certainly 0"
+or "not known": parts that are no single double are not looked into.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from raycert.oracle.batch.arithmetic import Number, Triple, heads
+from raycert.oracle.batch.arithmetic import (
+    Number,
+    Pair,
+    Singles,
+    Triple,
+    heads,
+    size,
+    two_prod,
+    two_sum,
+)
 from raycert.oracle.batch.decide import FAR, LEAST, MOST, NEAR, joined, settled
-from raycert.oracle.batch.expansions import dot_terms, paired, vanishes
 from raycert.oracle.batch.formulas import Bounded2, away, ball, divisor, ends, plane, ratio, wall
-from raycert.oracle.batch.frame import Frame, constants, on_plane, taken
-from raycert.oracle.batch.lanes import HIT, KNOWN, MISS, RATIONAL, Floats, Found, Lanes, Mask
-from raycert.oracle.batch.plan import PLANES, Plan
-from raycert.oracle.batch.vector import ALL, offset, tilted
+from raycert.oracle.batch.lanes import (
+    ALL,
+    HIT,
+    KNOWN,
+    MISS,
+    RATIONAL,
+    Floats,
+    Lanes,
+    Mask,
+    Outcomes,
+    offset,
+    speed,
+    tilted,
+)
+from raycert.oracle.batch.leaf import PLANES, LeafPlan
+
+Terms = list[Number]
+
+
+def grown(terms: Terms) -> Terms:
+    """Return an expansion of the same sum whose parts do not overlap [Shewchuk 1997, theorem 10].
+
+    It is 0 exactly where all of its parts are.
+    """
+    parts: Terms = []
+    for term in terms:
+        rest = term
+        for i, part in enumerate(parts):
+            rest, parts[i] = two_sum(rest, part)
+        parts.append(rest)
+    return parts
+
+
+def vanishes(terms: Terms) -> Mask:
+    """Tell where a sum is 0."""
+    zero: Mask = np.logical_and.reduce([part == 0 for part in grown(terms)])
+    return zero
+
+
+def single(terms: Terms) -> tuple[Number, Mask]:
+    """Return a sum as one double, and where that is all of it."""
+    parts = grown(terms)
+    total = sum(parts[1:], parts[0])
+    return total, vanishes([*parts, -total])
+
+
+def products(a: Pair, b: Pair) -> Terms:
+    """Return a b exactly, leaving out what is 0 in every lane."""
+    terms: Terms = []
+    for x in a:
+        for y in b:
+            if np.any(x) and np.any(y):
+                terms += two_prod(x, y)
+    return terms
+
+
+def dot_terms(a: Triple, b: Triple) -> Terms:
+    """Return a . b exactly."""
+    return [0.0 * a[0][0], *(term for i in range(3) for term in products(a[i], b[i]))]
+
+
+def cross_singles(a: Triple, b: Triple) -> tuple[Triple, Mask]:
+    """Return a x b, and where each part of it is one double."""
+    parts: list[Pair] = []
+    whole = np.ones(np.shape(a[0][0]), bool)
+    for j, k in ((1, 2), (2, 0), (0, 1)):
+        minus = (-a[k][0], -a[k][1])
+        value, held = single([0.0 * a[0][0], *products(a[j], b[k]), *products(minus, b[j])])
+        parts.append((value, 0.0 * value))
+        whole &= held
+    return (parts[0], parts[1], parts[2]), whole
+
+
+def square_terms(a: Iterable[Number]) -> Terms:
+    """Return the sum of the squares of doubles exactly."""
+    return [term for x in a for term in two_prod(x, x)]
+
+
+def paired(v: Singles) -> Triple:
+    """Return doubles as pairs."""
+    return (v[0], 0.0 * v[0]), (v[1], 0.0 * v[1]), (v[2], 0.0 * v[2])
+
+
+class Zeros:
+    """The exact numbers of a curved face's lanes, for the tests."""
+
+    def __init__(self, plan: LeafPlan, lanes: Lanes) -> None:
+        """Take the lanes in the plan's units."""
+        self.plan = plan
+        self.y = offset(lanes, plan.first, plan.keep)
+        self.v = speed(lanes, plan.keep)
+        self.w = constants(plan, len(lanes.held))
+
+    def still(self) -> Mask:
+        """Tell where the ray certainly runs along the axis, or stands still: A = 0."""
+        if not tilted(self.plan):
+            return np.asarray(size(self.v) == 0)
+        a, whole = cross_singles(paired(self.v), self.w)
+        zero: Mask = whole & (size(heads(a)) == 0)
+        return zero
+
+    def on_face(self, at: NDArray[np.intp], high: Floats, low: Floats) -> Mask:
+        """Tell of which lanes the point at t is certainly on the face."""
+        point, whole = along(taken(self.y, at), heads(taken(paired(self.v), at)), high, low)
+        if not tilted(self.plan):
+            r = np.full_like(high, self.plan.radius)
+            p, e = two_prod(r, r)
+            return whole & vanishes([*square_terms(x for x, _ in point), -p, -e])
+        g, held = cross_singles(point, taken(self.w, at))
+        cap = [np.full_like(high, -x) for x in self.plan.cap]
+        return whole & held & self.plan.exact & vanishes([*square_terms(x for x, _ in g), *cap])
+
+    def at_start(self) -> Mask:
+        """Tell where C = 0."""
+        zero = np.zeros_like(self.v[0])
+        return self.on_face(np.arange(len(zero)), zero, zero)
+
+    def touching(self) -> Mask:
+        """Tell where G = 0. A direction along a coordinate axis is taken as a unit vector."""
+        count = sum((x != 0).astype(int) for x in self.v)
+        x, y, z = (np.where(count == 1, np.sign(part), part) for part in self.v)
+        v = paired((x, y, z))
+        if tilted(self.plan):
+            a, whole = cross_singles(v, self.w)
+            det, held = single(dot_terms(self.y, a))
+            k = [det]
+        else:
+            a, whole = v, np.ones_like(self.v[0], bool)
+            parts, held = cross_singles(self.y, v)
+            k = [x for x, _ in parts]
+        aa, known = single(square_terms(x for x, _ in a))
+        rr = tuple(np.full_like(aa, x) for x in self.plan.rr)
+        terms = [*products((rr[0], rr[1]), (-aa, 0.0 * aa)), *square_terms(k)]
+        return whole & held & known & self.plan.exact & vanishes(terms)
+
+    def square_on(self) -> Mask:
+        """Tell where B = 0."""
+        if not tilted(self.plan):
+            return vanishes(dot_terms(self.y, paired(self.v)))
+        a, whole = cross_singles(paired(self.v), self.w)
+        g, held = cross_singles(self.y, self.w)
+        return whole & held & vanishes(dot_terms(a, g))
+
+
+def along(y: Triple, v: Singles, high: Number, low: Number) -> tuple[Triple, Mask]:
+    """Return y + t v, and where each part of it is one double."""
+    parts: list[Pair] = []
+    whole = np.ones(np.shape(high), bool)
+    for i in range(3):
+        value, held = single([*y[i], *products((high, low), (v[i], 0.0 * v[i]))])
+        parts.append((value, 0.0 * value))
+        whole &= held
+    return (parts[0], parts[1], parts[2]), whole
+
+
+def on_plane(y: Triple, v: Singles, w: Triple, high: Number, low: Number) -> Mask:
+    """Tell where the point at t is certainly on a plane; where w has no part, none is looked at."""
+    point, whole = along(masked(y, w), heads(masked(paired(v), w)), high, low)
+    return whole & vanishes(dot_terms(point, w))
+
+
+def taken(a: Triple, at: NDArray[np.intp]) -> Triple:
+    """Return the lanes with these numbers."""
+    x, y, z = ((high[at], low[at]) for high, low in a)
+    return x, y, z
+
+
+def masked(a: Triple, w: Triple) -> Triple:
+    """Return a with 0 for the parts where w has none."""
+    x, y, z = (
+        (np.where(part[0] == 0, 0.0, high), np.where(part[0] == 0, 0.0, low))
+        for (high, low), part in zip(a, w, strict=True)
+    )
+    return x, y, z
+
+
+def constants(plan: LeafPlan, n: int) -> Triple:
+    """Return the axis or normal for each of n lanes."""
+    x, y, z = ((np.full(n, high), np.full(n, low)) for high, low in plan.w)
+    return x, y, z
+
 
 OPEN = 2
 """A sign that is not known."""
@@ -68,14 +252,14 @@ def _tested(where: Mask, test: Test, high: Floats, low: Floats) -> Mask:
     return passed
 
 
-def solve_curved(plan: Plan, lanes: Lanes) -> Found:
+def solve_curved(plan: LeafPlan, lanes: Lanes) -> Outcomes:
     """Return what exact zeros decide of the curved face."""
-    frame = Frame(plan, lanes)
+    frame = Zeros(plan, lanes)
     if tilted(plan):
         terms = wall(frame.y, frame.v, plan.w, plan.size, plan.rr, plan.cap)
     else:
         terms = ball(frame.y, frame.v, plan.rr)
-    found = Found.unsure(len(lanes.held))
+    found = Outcomes.unsure(len(lanes.held))
     still, start = frame.still(), signs(terms[2], frame.at_start)
     found.mark(still & (start == 1), MISS, RATIONAL)
     found.mark(still & ((start == 0) | (start == -1)), HIT, RATIONAL, np.inf)
@@ -89,7 +273,7 @@ def solve_curved(plan: Plan, lanes: Lanes) -> Found:
 
 
 def _crossings(
-    plan: Plan, lanes: Lanes, frame: Frame, terms: Any, known: Any, found: Found
+    plan: LeafPlan, lanes: Lanes, frame: Zeros, terms: Any, known: Any, found: Outcomes
 ) -> None:
     """Write the lanes with A > 0 and D > 0 that have a root ahead."""
     (a, b, c, gap), (real, start, turn), back = terms, known, lanes.back
@@ -112,7 +296,7 @@ def _crossings(
     _hit(found, at_0, zero, settle(chord, back, frame.on_face, np.inf))
 
 
-def _touches(lanes: Lanes, frame: Frame, terms: Any, at: Mask, found: Found) -> None:
+def _touches(lanes: Lanes, frame: Zeros, terms: Any, at: Mask, found: Outcomes) -> None:
     """Write the lanes with D = 0 and the double root -B / A ahead."""
     if not at.any():
         return
@@ -132,7 +316,7 @@ def absolute(x: Bounded2) -> Bounded2:
     return (s * x[0][0], s * x[0][1]), x[1]
 
 
-def _hit(found: Found, where: Mask, enter: End, leave: End) -> None:
+def _hit(found: Outcomes, where: Mask, enter: End, leave: End) -> None:
     """Write a pair to the lanes where both of its endpoints are certain."""
     at = where & enter[1] & leave[1]
     found.mark(at, HIT, RATIONAL)
@@ -140,7 +324,7 @@ def _hit(found: Found, where: Mask, enter: End, leave: End) -> None:
     found.before[at], found.after[at] = enter[2][at], leave[2][at]
 
 
-def solve_planes(plan: Plan, lanes: Lanes) -> Found:
+def solve_planes(plan: LeafPlan, lanes: Lanes) -> Outcomes:
     """Return what exact zeros decide of a half-space or slab."""
     w = constants(plan, len(lanes.held))
     at_q = offset(lanes, plan.second, ALL)
@@ -150,7 +334,7 @@ def solve_planes(plan: Plan, lanes: Lanes) -> Found:
     over = signs(c, lambda: vanishes(dot_terms(at_q, w)))
     above = signs(d, lambda: vanishes(dot_terms(at_p, w)))
     under = np.where(above == OPEN, OPEN, -above if plan.planes == 2 else -1)
-    found = Found.unsure(len(climb))
+    found = Outcomes.unsure(len(climb))
     found.mark((climb == 0) & ((over == 1) | (under == 1)), MISS, RATIONAL)
     found.mark((climb == 0) & (over <= 0) & (under <= 0), HIT, RATIONAL, np.inf)
     speed_, back = absolute(b), lanes.back
@@ -170,7 +354,7 @@ def solve_planes(plan: Plan, lanes: Lanes) -> Found:
     return found
 
 
-def _passed(found: Found, moving: Mask, first: Any, last: Any, endless: bool) -> None:
+def _passed(found: Outcomes, moving: Mask, first: Any, last: Any, endless: bool) -> None:
     """Write the lanes that enter through one plane and leave through another, or never."""
     (behind, enter), (ahead, leave) = first, last
     found.mark(moving & (ahead == 1), MISS, RATIONAL)
@@ -182,11 +366,11 @@ def _passed(found: Found, moving: Mask, first: Any, last: Any, endless: bool) ->
     _hit(found, going & (behind == 1), enter, stop)
 
 
-def rational(plan: Plan, lanes: Lanes) -> Found:
+def rational(plan: LeafPlan, lanes: Lanes) -> Outcomes:
     """Return what the rational rung decides of a leaf's lanes."""
     if plan.kind == PLANES:
         return solve_planes(plan, lanes)
     found = solve_curved(plan, lanes)
     if plan.planes:
-        return Found.of(joined(found.ends, solve_planes(plan, lanes).ends), RATIONAL)
+        return Outcomes.of(joined(found.ends, solve_planes(plan, lanes).ends), RATIONAL)
     return found

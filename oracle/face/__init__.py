@@ -60,7 +60,7 @@ if TYPE_CHECKING:
     from raycert.cases.model import Slab as Slab
     from raycert.cases.model import Sphere as Sphere
     from raycert.cases.model import Union as Union
-    from raycert.oracle.batch.trace import trace_batch as trace_batch
+    from raycert.oracle.batch.blocks import trace_batch as trace_batch
     from raycert.oracle.exact.surd import INFINITY as INFINITY
     from raycert.oracle.exact.surd import Surd as Surd
     from raycert.oracle.judge.levels import Judge as Judge
@@ -71,7 +71,7 @@ _HOMES = {
     "raycert.answers": "trace expected explain read Trace",
     "raycert.cases.model": "HalfSpace Sphere InfiniteCylinder Slab Cylinder "
     "Union Intersection Difference Ray",
-    "raycert.oracle.batch.trace": "trace_batch",
+    "raycert.oracle.batch.blocks": "trace_batch",
     "raycert.oracle.exact.surd": "Surd INFINITY",
     "raycert.oracle.judge.levels": "Judge",
     "raycert.reference.tracer": "intersect",

@@ -27,8 +27,8 @@ from raycert.cases.vectors import along, minus, plus, times
 from raycert.oracle.measure.rays import arrays
 
 if TYPE_CHECKING:
+    from raycert.oracle.batch.blocks import Batch
     from raycert.oracle.batch.lanes import Floats
-    from raycert.oracle.batch.trace import Batch
 
 CASTS = ("scattered", "camera", "pipe")
 QUESTIONS = ("first", "all")
@@ -91,7 +91,7 @@ def cast(name: str, size: tuple[int, int], seed: int) -> Cast:
 
 def _from_outside(some: Cast) -> Cast:
     """Return a cast with its truth, without the rays that start inside."""
-    from raycert.oracle.batch.trace import trace_batch
+    from raycert.oracle.batch.blocks import trace_batch
 
     lists = trace_batch(some.solid, some.origins, some.directions, engine="numpy")
     inside = lists.enter[lists.offsets[:-1].clip(max=max(len(lists.enter) - 1, 0))] == 0
@@ -195,7 +195,7 @@ def _where(t: Any, hit: Any) -> RayHits:
 
 
 def _oracle(cast: Cast, question: str) -> Call:
-    trace_batch = import_module("raycert.oracle.batch.trace").trace_batch
+    trace_batch = import_module("raycert.oracle.batch.blocks").trace_batch
     solid, u, v = cast.solid, cast.origins, cast.directions
     return Call(
         "trace_batch",

@@ -97,7 +97,7 @@ WAYS: tuple[Way, ...] = (
         "symbolic", False, needs=("sympy",)),
     Way("oracle", "is the oracle, in integers", one_by_one(exact), ALL, "exact"),
     _batch("oracle-batch", "is the oracle in lanes, the same answers",
-           "raycert.oracle.batch.trace:trace_batch", "exact"),
+           "raycert.oracle.batch.blocks:trace_batch", "exact"),
     *(_mesh(caster, n) for caster in ("trimesh", "embree") for n in SIDES),
 )  # fmt: skip
 BY_NAME = {way.name: way for way in WAYS}

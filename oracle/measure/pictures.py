@@ -40,7 +40,7 @@ def reference(module: str, name: str) -> Any:
 
 def everything() -> frozenset[str]:
     """Return the names of all items that a plan can leave out."""
-    return frozenset(reference("items", "ITEMS"))
+    return frozenset(reference("plan", "ITEMS"))
 
 
 def picture(scene: Scene, show: str, off: frozenset[str]) -> Any:

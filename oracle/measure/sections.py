@@ -86,7 +86,7 @@ def _batches(report: Report) -> Iterator[list[Data]]:
 
 def price(name: str, rays: Rays, some: Sequence[str], effort: Effort) -> Data:
     """Return what rays cost the naive formula and each engine, and the share of lanes by rung."""
-    from raycert.oracle.batch.trace import trace_batch
+    from raycert.oracle.batch.blocks import trace_batch
     from raycert.oracle.measure.arrays import naive
 
     def way(call: Callable[..., Any], **options: str) -> Callable[[], Any]:

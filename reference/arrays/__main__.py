@@ -17,9 +17,8 @@ from typing import Any
 import numpy as np
 
 from raycert.cases.scene import Scene, read_scene
-from raycert.reference.arrays.items import ITEMS
 from raycert.reference.arrays.picture import lists, picture
-from raycert.reference.arrays.plan import Plan, plan
+from raycert.reference.arrays.plan import ITEMS, Plan, plan
 
 
 def render(scene: Scene, task: dict[str, Any]) -> bytes:

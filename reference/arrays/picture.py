@@ -6,23 +6,34 @@
     count      the number of intervals
 
 The lists are made by the tracer and are its bits; what is derived from them here is for the eye.
+
+The algebra of lists changes no number, so the first enter of a tree is, bit by bit, an end of some
+leaf's list there. That leaf's face is the one that is hit; of several the first. The normal is
+turned against the ray, which is outward where a ray enters, also through the face of a hole.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 
-from raycert.cases.model import Union
-from raycert.reference.arrays.bundle import Bundle, Part
-from raycert.reference.arrays.items import Show
+from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Slab, Sphere, Union, Vector
 from raycert.reference.arrays.lists import Lists, Padded, padded
-from raycert.reference.arrays.normals import normals
-from raycert.reference.arrays.plan import Plan
-from raycert.reference.arrays.solids import solve
-from raycert.reference.arrays.tracer import joined
-from raycert.reference.arrays.vectors import Array, Vectors, present, take
+from raycert.reference.arrays.plan import Plan, Show
+from raycert.reference.arrays.tracer import (
+    Bundle,
+    Part,
+    cylinder,
+    half_space,
+    joined,
+    slab,
+    solve,
+    sphere,
+    walk,
+)
+from raycert.reference.arrays.vectors import Array, Mask, Vectors, present, take
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,3 +104,83 @@ def _tile(plan: Plan, rays: Bundle, show: Show) -> tuple[Array, int]:
 def _length(v: Vectors) -> Array:
     squares = [c * c for c in present(v)]
     return np.sqrt(np.sum(np.broadcast_arrays(*squares), axis=0)) if squares else np.zeros(1)
+
+
+def normals(root: Part, rays: Bundle, t: Array) -> Array:
+    """Return the unit normal in each lane at its first hit t; NaN where there is no face.
+
+    The lists of the leaves are those that the bundle remembers from finding t.
+    """
+    origin, direction = _rows(rays.origin, rays.lanes), _rows(rays.direction, rays.lanes)
+    found = np.full((rays.lanes, 3), np.nan)
+    free = t > 0
+    for part in walk(root):
+        if part.parts or part.index not in rays.lists:
+            continue
+        lanes = np.flatnonzero(_ends_at(rays.lists[part.index], t) & free)
+        if not lanes.size:
+            continue
+        free[lanes] = False
+        x = origin[lanes] + t[lanes, None] * direction[lanes]
+        found[lanes] = _at(part, rays.only(lanes), t[lanes], x)
+    against: Mask = np.sum(found * direction, axis=1) > 0
+    found[against] *= -1
+    unit: Array = found / np.sqrt(np.sum(found * found, axis=1))[:, None]
+    return unit
+
+
+def _at(part: Part, rays: Bundle, t: Array, x: Array) -> Array:
+    """Return a normal of a leaf, of any length, at points that are the ends t of its lists."""
+    found = np.full(x.shape, np.nan)
+    free = np.ones(t.size, bool)
+    for pairs, axis, center in _faces(part, rays):
+        here = _ends_at(pairs, t) & free
+        found[here] = _normal(x[here], axis, center)
+        free &= ~here
+    return found
+
+
+def _ends_at(pairs: Lists, t: Array) -> Mask:
+    """Tell for each lane whether an interval begins or ends at t."""
+    found = np.zeros(pairs.lanes, bool)
+    for ends in (pairs.enter, pairs.leave):
+        found[pairs.lane[ends == t[pairs.lane]]] = True
+    return found
+
+
+def _faces(part: Part, rays: Bundle) -> Iterator[tuple[Lists, Vector | None, Vector | None]]:
+    """Yield the list of each face of a leaf, with an axis (None: a ball), a center (None: flat)."""
+    match part.solid:
+        case HalfSpace(_, normal) as leaf:
+            yield half_space(leaf, rays), normal, None
+        case Sphere(center, _) as leaf:
+            yield sphere(leaf, rays), None, center
+        case Slab(p, q) as leaf:
+            yield slab(leaf, rays), _minus(q, p), None
+        case InfiniteCylinder(p, q, _) as leaf:
+            yield cylinder(leaf, rays, capped=False), _minus(q, p), p
+        case Cylinder(p, q, radius):
+            wall = InfiniteCylinder(p, q, radius)
+            yield cylinder(wall, rays, capped=False), _minus(q, p), p
+            yield slab(Slab(p, q), rays), _minus(q, p), None
+
+
+def _normal(x: Array, axis: Vector | None, center: Vector | None) -> Array:
+    """Return a normal, of any length, at each of the points."""
+    if center is None:
+        return np.broadcast_to(np.array(axis), x.shape)
+    y: Array = x - np.array(center)
+    if axis is None:
+        return y
+    w = np.array(axis)
+    across: Array = y - (y @ w / (w @ w))[:, None] * w
+    return across
+
+
+def _minus(a: Vector, b: Vector) -> Vector:
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def _rows(a: Vectors, lanes: int) -> Array:
+    columns = [np.zeros(1) if c is None else c for c in a]
+    return np.stack([np.broadcast_to(c, lanes) for c in columns], axis=1)

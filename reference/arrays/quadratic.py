@@ -2,6 +2,10 @@
 
 What misses leaves first: the roots are taken only in the lanes that hit. `Line` has what the
 direction alone gives, `Start` what the start alone gives, so either can be shared.
+
+`textbook_chord` is the formula of schoolbooks, b^2 - a c, to see what it loses: the difference of
+two squares that are large where the start is far away. At a distance of D radii only u D^2 of it is
+right, and from D = 1e8 on nothing is.
 """
 
 from __future__ import annotations
@@ -12,8 +16,18 @@ from functools import cached_property
 import numpy as np
 
 from raycert.reference.arrays.lists import Lists
-from raycert.reference.arrays.norms import norm, rough
-from raycert.reference.arrays.vectors import Array, Mask, Vectors, Whole, cross, dot, take, take_all
+from raycert.reference.arrays.vectors import (
+    Array,
+    Mask,
+    Vectors,
+    Whole,
+    cross,
+    dot,
+    norm,
+    rough,
+    take,
+    take_all,
+)
 
 BEYOND = 1 + 2.0**-40
 """By how much a miss must be a miss in rough numbers, whose error is some 2^-49."""
@@ -149,3 +163,21 @@ def _woven(one: Lists, two: Lists) -> Lists:
     order = np.argsort(np.concatenate((one.lane, two.lane)))
     lane, enter, leave = (np.concatenate((one[i], two[i]))[order] for i in range(3))
     return Lists(lane, enter, leave, one.lanes)
+
+
+def textbook_chord(start: Start, line: Line, how: How, lanes: int) -> Lists:
+    """Return the interval of t >= 0 for which |y + t v| <= r, by the schoolbook's formula.
+
+    It takes no shortcut, whatever `how` allows.
+    """
+    a, b = line.vv, dot(line.v, start.y)
+    c = dot(start.y, start.y) - start.r * start.r
+    disc = b * b - a * c
+    root = np.sqrt(disc)
+    along = a == 0
+    enter = np.where(along, 0.0, (-b - root) / a)
+    leave = np.where(along, np.inf, (-b + root) / a)
+    hit = np.where(along, c <= 0, (disc >= 0) & (leave >= 0))
+    lane = np.arange(lanes)
+    enter, leave = (np.broadcast_to(x, lane.shape) for x in (np.maximum(enter, 0.0), leave))
+    return Lists(lane, enter, leave, lanes).where(np.broadcast_to(hit, lane.shape))

@@ -7,8 +7,8 @@ import pytest
 
 from raycert.cases.formats import BINARY32, BINARY64
 from raycert.cases.model import Difference, HalfSpace, Intersection, Solid, Sphere, Union
+from raycert.oracle.batch.blocks import trace_batch
 from raycert.oracle.batch.booleans import Lists, combine
-from raycert.oracle.batch.trace import trace_batch
 from shared.batch_rays import aligned, free, lattice, wrong
 
 TREES = (Union, Intersection, Difference)

@@ -10,8 +10,9 @@ import pytest
 
 from raycert.cases.model import InfiniteCylinder, Slab, Sphere
 from raycert.oracle.batch import decide, formulas
-from raycert.oracle.batch.bounds import UU, U
 from raycert.oracle.batch.formulas import (
+    UU,
+    U,
     ball,
     divisor,
     gap_ball,
@@ -20,10 +21,9 @@ from raycert.oracle.batch.formulas import (
     plane_plain,
     wall,
 )
-from raycert.oracle.batch.lanes import Lanes
-from raycert.oracle.batch.plan import Plan, plan
-from raycert.oracle.batch.vector import ALL, axis, heads, offset, speed
-from raycert.oracle.batch.vector import tilted as has_axis
+from raycert.oracle.batch.lanes import ALL, Lanes, axis, heads, offset, speed
+from raycert.oracle.batch.lanes import tilted as has_axis
+from raycert.oracle.batch.leaf import LeafPlan, plan
 from shared.batch_rays import aligned, beside_ties, far, free, grazing, tilted, wrong
 
 Vector = tuple[Fraction, Fraction, Fraction]
@@ -48,7 +48,7 @@ def lane(arrays, i: int) -> Vector:
     return (parts[0], parts[1], parts[2])
 
 
-def truths(leaf: Plan, lanes: Lanes, i: int) -> tuple[Fraction, Fraction, Fraction, Fraction]:
+def truths(leaf: LeafPlan, lanes: Lanes, i: int) -> tuple[Fraction, Fraction, Fraction, Fraction]:
     """Return A, B, C and G of a lane exactly."""
     y, v = lane(offset(lanes, leaf.first, leaf.keep), i), lane(speed(lanes, leaf.keep), i)
     a, g, r2 = v, y, Fraction(leaf.radius) ** 2
@@ -61,7 +61,7 @@ def truths(leaf: Plan, lanes: Lanes, i: int) -> tuple[Fraction, Fraction, Fracti
     return dot(a, a), dot(a, g), dot(g, g) - r2, gap
 
 
-def curved_shares(leaf: Plan, lanes: Lanes) -> list[list[float]]:
+def curved_shares(leaf: LeafPlan, lanes: Lanes) -> list[list[float]]:
     """Return the error in units of its bound: of A, B, C, G in pairs, and of G in doubles."""
     y, v = offset(lanes, leaf.first, leaf.keep), speed(lanes, leaf.keep)
     plain = heads(lanes, leaf.first, leaf.keep)

@@ -8,9 +8,9 @@ import numpy as np
 from click.testing import CliRunner
 
 from raycert.cases.formats import BINARY32, BINARY64
-from raycert.oracle.batch import campaign
-from raycert.oracle.batch.campaign import Scene, compare, jittered, numbers, scenes
-from raycert.oracle.batch.trace import trace_batch
+from raycert.oracle.batch.blocks import trace_batch
+from shared import batch_campaign as campaign
+from shared.batch_campaign import Scene, compare, jittered, numbers, scenes
 
 
 def some() -> list[Scene]:

@@ -12,11 +12,18 @@ import pytest
 from raycert.cases.formats import BINARY32, BINARY64, Format
 from raycert.cases.model import Sphere
 from raycert.oracle.batch import compiled, engines
-from raycert.oracle.batch.engines import ENGINES, Engine, engine_of
-from raycert.oracle.batch.plan import plan
-from raycert.oracle.batch.probe import probe
-from raycert.oracle.batch.trace import trace_batch
-from raycert.oracle.batch.trust import INPUT, WANTED, trustworthy, untrustworthy
+from raycert.oracle.batch.arithmetic import probe
+from raycert.oracle.batch.blocks import trace_batch
+from raycert.oracle.batch.engines import (
+    ENGINES,
+    INPUT,
+    WANTED,
+    Engine,
+    engine_of,
+    trustworthy,
+    untrustworthy,
+)
+from raycert.oracle.batch.leaf import plan
 from shared.batch_rays import FAMILIES, beside_ties, free
 
 numba = pytest.importorskip("numba")

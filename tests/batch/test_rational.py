@@ -10,10 +10,10 @@ import pytest
 
 from raycert.cases.formats import BINARY32, BINARY64
 from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Slab, Sphere
-from raycert.oracle.batch.expansions import grown, single, vanishes
+from raycert.oracle.batch.blocks import trace_batch
+from raycert.oracle.batch.booleans import aside, narrowed
 from raycert.oracle.batch.lanes import KNOWN
-from raycert.oracle.batch.narrow import aside, narrowed
-from raycert.oracle.batch.trace import trace_batch
+from raycert.oracle.batch.rational import grown, single, vanishes
 from shared.batch_rays import lattice, wrong
 
 TINY = 2.0**-52

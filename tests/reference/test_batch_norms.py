@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from raycert.reference.arrays import norms
-from raycert.reference.arrays.norms import norm, rough
+from raycert.reference.arrays import vectors as norms
+from raycert.reference.arrays.vectors import norm, rough
 
 ANY = st.floats(allow_nan=False, allow_infinity=False)
 PARTS = st.one_of(ANY, st.integers(-9, 9).map(float), st.floats(-1, 1))

@@ -33,10 +33,10 @@ from raycert.cases.scene import (
 from raycert.cases.strategies import solids
 from raycert.oracle.measure.pictures import crowd, worth
 from raycert.reference import tracer
-from raycert.reference.arrays import bounds, picture
-from raycert.reference.arrays.items import ITEMS, Show
-from raycert.reference.arrays.plan import plan
-from raycert.reference.arrays.rays import rays, tiles
+from raycert.reference.arrays import picture
+from raycert.reference.arrays import tiles as bounds
+from raycert.reference.arrays.plan import ITEMS, Show, plan
+from raycert.reference.arrays.tiles import rays, tiles
 from raycert.reference.arrays.vectors import Array
 
 SMALL, SIDE = (16, 8), 8

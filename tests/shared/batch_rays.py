@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from raycert.cases.formats import BINARY64, Format
 from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Leaf, Slab, Solid, Sphere
-from raycert.oracle.batch.trace import Batch, scalar, trace_batch
+from raycert.oracle.batch.blocks import Batch, scalar, trace_batch
 
 Floats = NDArray[np.float64]
 Make = Callable[[np.random.Generator], tuple[list[Leaf], Floats, Floats]]

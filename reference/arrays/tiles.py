@@ -1,22 +1,26 @@
-"""Which tile cannot meet which part: bounds that hold for every ray of the tile, rounding included.
+"""The rays of a camera, tile by tile, and which tile cannot meet which part of the solid.
 
-The promise of the tracer is the ground: a t that it answers for a leaf lies in the leaf with its
-faces moved by k u s(t), k at most 64, where s(t) is at most 8 S and S the sum of the sizes at hand
-(origin, box, the leaf's own numbers). So a leaf whose box, grown by 2^-36 S, meets no ray of a
-tile, has an empty answer there: 64 u 8 S = 2^-44 S is a part in 256 of that. The bounds themselves
-are made in doubles, whose errors are some 2^-48 S.
+The rays are those of the formula of `raycert.cases.scene`, to the bit. A tile is a square of
+pixels, so that its rays are near each other: what one of them misses, all of them mostly miss.
+
+The promise of the tracer is the ground of the bounds, which hold for every ray of a tile, rounding
+included: a t that it answers for a leaf lies in the leaf with its faces moved by k u s(t), k at
+most 64, where s(t) is at most 8 S and S the sum of the sizes at hand (origin, box, the leaf's own
+numbers). So a leaf whose box, grown by 2^-36 S, meets no ray of a tile, has an empty answer there:
+64 u 8 S = 2^-44 S is a part in 256 of that. The bounds themselves are made in doubles, whose errors
+are some 2^-48 S.
 
 A tile's rays lie in the half-spaces n . (x - point) >= 0 through neighbouring corner rays, and
-before the eye. A box is missed if it lies wholly behind one of these planes.
-
-Caps are not met where the stretch of the ray in the infinite cylinder, t <= T, lies between
-them by as much: then the slab holds all of [0, T], and the intersection is the chord itself.
+before the eye. A box is missed if it lies wholly behind one of these planes. Caps are not met where
+the stretch of the ray in the infinite cylinder, t <= T, lies between them by as much: then the slab
+holds all of [0, T], and the intersection is the chord itself.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from math import hypot, inf
+from typing import NamedTuple
 
 import numpy as np
 
@@ -31,12 +35,80 @@ from raycert.cases.model import (
     Solid,
     Sphere,
     Union,
+    Vector,
     leaves,
 )
 from raycert.cases.scene import Frame, pixel_ray
-from raycert.reference.arrays.rays import Tile
-from raycert.reference.arrays.vectors import Array, Mask
+from raycert.reference.arrays.vectors import Array, Mask, Vectors, Whole
 from raycert.reference.vectors import displacement
+
+SIDE = 64
+"""Pixels along a side of a tile: 4096 lanes, whose arrays fit in a cache."""
+
+
+class Tile(NamedTuple):
+    """The pixels in columns [left, right) and rows [top, bottom)."""
+
+    left: int
+    right: int
+    top: int
+    bottom: int
+
+    @property
+    def lanes(self) -> int:
+        """Return the number of pixels."""
+        return (self.right - self.left) * (self.bottom - self.top)
+
+    def pixels(self, width: int) -> Whole:
+        """Return the index of each pixel in the picture, row by row."""
+        rows, columns = np.arange(self.top, self.bottom), np.arange(self.left, self.right)
+        return (rows[:, None] * width + columns).ravel()
+
+    def corners(self) -> list[tuple[int, int]]:
+        """Return (column, row) of the outermost pixels, around the tile."""
+        right, bottom = self.right - 1, self.bottom - 1
+        return [(self.left, self.top), (right, self.top), (right, bottom), (self.left, bottom)]
+
+
+def tiles(size: tuple[int, int], side: int) -> list[Tile]:
+    """Return the tiles of a picture, row by row."""
+    width, height = size
+    return [
+        Tile(left, min(left + side, width), top, min(top + side, height))
+        for top in range(0, height, side)
+        for left in range(0, width, side)
+    ]
+
+
+def rays(frame: Frame, size: tuple[int, int], tile: Tile) -> tuple[Vectors, Vectors]:
+    """Return origins and directions of a tile's pixels; what all share has length 1."""
+    width, height = size
+    columns, rows = np.arange(tile.left, tile.right), np.arange(tile.top, tile.bottom)
+    a = (2 * columns + 1 - width) / height * frame.scale
+    b = (height - 1 - 2 * rows) / height * frame.scale
+    if frame.kind == "perspective":
+        return _shared(frame.eye), _spread(frame.forward, frame, a, b)
+    return _spread(frame.eye, frame, a, b), _shared(frame.forward)
+
+
+def widened(a: Vectors, lanes: int) -> Vectors:
+    """Return a shared vector lane by lane."""
+    x, y, z = (None if c is None else np.repeat(c, lanes // c.size) for c in a)
+    return x, y, z
+
+
+def _shared(a: Vector) -> Vectors:
+    x, y, z = (np.array([c], float) for c in a)
+    return x, y, z
+
+
+def _spread(base: Vector, frame: Frame, a: Array, b: Array) -> Vectors:
+    x, y, z = (
+        (c + a[None, :] * r + b[:, None] * t).ravel()
+        for c, r, t in zip(base, frame.right, frame.top, strict=True)
+    )
+    return x, y, z
+
 
 DOUBT = 2.0**-36
 """The part of the sizes by which a bound has to hold."""

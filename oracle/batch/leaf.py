@@ -3,7 +3,7 @@
 Lengths are scaled so that the radius (else the largest coordinate) is about 1, the axis or normal
 so that its largest part is. A circle about a coordinate axis is the sphere's formula without that
 coordinate, `keep`: no axis enters. Of a solid that the scaled doubles do not hold exactly, or that
-leaves the range of `bounds`, no lane is fast: `reason` says why.
+leaves the range of `formulas`, no lane is fast: `reason` says why.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ class OutOfRange(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Plan:
+class LeafPlan:
     """The constants of a leaf. Vectors are in the scaled units; `w` and scalars are hi + lo.
 
     `first` and `second` are the points of the planes, w the outward normal at `second`; a
@@ -67,19 +67,19 @@ class Plan:
         return np.array(parts)
 
 
-def plan(leaf: Leaf) -> Plan:
+def plan(leaf: Leaf) -> LeafPlan:
     """Return the plan of a leaf, with a reason where no lane of it can be fast."""
     try:
         return _plan(leaf)
     except OutOfRange as error:
         zero, pair = (0.0, 0.0, 0.0), (0.0, 0.0)
-        return Plan(
+        return LeafPlan(
             PLANES, 1.0, 1.0, 1.0, (True,) * 3, zero, zero, (pair,) * 3,
             1.0, 0.0, pair, pair, pair, 0, reason=str(error),
         )  # fmt: skip
 
 
-def _plan(leaf: Leaf) -> Plan:
+def _plan(leaf: Leaf) -> LeafPlan:
     curved = isinstance(leaf, Sphere | InfiniteCylinder | Cylinder)
     low, high = CURVED_RANGE if curved else PLANE_RANGE
     first, second = _points(leaf)
@@ -90,7 +90,7 @@ def _plan(leaf: Leaf) -> Plan:
     square = sum((x * x for x in axis), Fraction(0)) if _tilted(leaf, axis) else Fraction(1)
     rr = Fraction(radius) ** 2
     cap = _pair(rr * square)
-    return Plan(
+    return LeafPlan(
         kind=_kind(leaf, axis),
         stretch=stretch,
         low=low,

@@ -1,9 +1,10 @@
-"""The batch oracle against the scalar one, on rays about every golden case: `python -m` runs it.
+"""The batch oracle against the scalar one, on rays about every golden case: run by hand.
 
 Each solid of the golden rows is a scene. Rays start from the rows' own: numbers move by a few ulps
 or by steps of 2^-1 to 2^-60 of their size, are swapped with those of the solid or of other rays,
 turn 0, are scaled by powers of two. Each engine has to give the scalar oracle's rounded lists, lane
 for lane, and the same counts of rungs as the other.
+`PYTHONPATH=tests python -m shared.batch_campaign --rays 1000000`
 """
 
 from __future__ import annotations
@@ -19,8 +20,8 @@ import numpy as np
 from raycert.cases.corpus import read_corpus
 from raycert.cases.formats import BINARY32, FORMATS, Format
 from raycert.cases.model import HalfSpace, Ray, Refused, Solid, leaves, lengths
+from raycert.oracle.batch.blocks import Batch, scalar, trace_batch
 from raycert.oracle.batch.lanes import Floats
-from raycert.oracle.batch.trace import Batch, scalar, trace_batch
 
 LARGEST = 2.0**1000
 """Numbers are drawn again that a step takes beyond it."""

@@ -16,11 +16,10 @@ from numpy.typing import ArrayLike, NDArray
 from raycert.cases.accept import Numbers
 from raycert.cases.formats import BINARY32, BINARY64, Format
 from raycert.cases.model import Leaf, Ray, Refused, Solid, Tree, leaves
-from raycert.oracle.batch.booleans import Lists, combine
+from raycert.oracle.batch.booleans import Lists, combine, narrowed, set_aside
 from raycert.oracle.batch.engines import Engine, engine_of
-from raycert.oracle.batch.lanes import HIT, INTEGER, RUNGS, UNSURE, Codes, Floats, Found, Lanes
-from raycert.oracle.batch.narrow import narrowed, set_aside
-from raycert.oracle.batch.plan import Plan, plan
+from raycert.oracle.batch.lanes import HIT, INTEGER, RUNGS, UNSURE, Codes, Floats, Lanes, Outcomes
+from raycert.oracle.batch.leaf import LeafPlan, plan
 from raycert.oracle.batch.rational import rational
 from raycert.oracle.exact.intervals import expected
 from raycert.oracle.exact.trace import trace
@@ -97,7 +96,7 @@ def trace_batch(
     if len(u) != len(v):
         raise Refused("directions", f"has {len(v)} rows, not {len(u)} as origins has")
     chosen = engine_of(engine)
-    tracer = Tracer(solid, fmt, chosen)
+    tracer = Blocks(solid, fmt, chosen)
     with np.errstate(all="ignore"):
         parts = [tracer.block(u[i : i + block], v[i : i + block]) for i in range(0, len(u), block)]
     counts = np.concatenate([np.zeros(1, np.intp), *(part[0] for part in parts)])
@@ -122,13 +121,13 @@ def _vectors(rows: ArrayLike, name: str) -> Floats:
     return array
 
 
-class Tracer:
+class Blocks:
     """A solid prepared for blocks of rays, and the counts of the rungs."""
 
     def __init__(self, solid: Solid, fmt: Format, engine: Engine) -> None:
-        """Plan each different leaf once."""
+        """LeafPlan each different leaf once."""
         self.solid, self.fmt, self.engine = solid, fmt, engine
-        self.plans: dict[Leaf, Plan] = {leaf: plan(leaf) for _, leaf in leaves(solid)}
+        self.plans: dict[Leaf, LeafPlan] = {leaf: plan(leaf) for _, leaf in leaves(solid)}
         self.leaf_rungs = np.zeros(len(RUNGS), np.intp)
         self.lane_rungs = np.zeros(len(RUNGS), np.intp)
 
@@ -163,7 +162,7 @@ class Tracer:
         lists = Lists(lane, found.enter[lane], found.leave[lane], found.state == UNSURE)
         return lists, found.rung
 
-    def _leaf(self, leaf: Plan, rays: Floats) -> Found:
+    def _leaf(self, leaf: LeafPlan, rays: Floats) -> Outcomes:
         """Return what the fast rungs decide; the rung of an open lane is `INTEGER`."""
         narrow = self.fmt is BINARY32
         found = self.engine.leaf_block(leaf, rays)

@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
 from raycert.cases.model import Cylinder, Ray, Refused, Solid, Sphere
 from raycert.cases.strategies import scenes
-from raycert.oracle.batch.trace import trace_batch
+from raycert.oracle.batch.blocks import trace_batch
 from shared.batch_rays import FAMILIES, aligned, beside_ties, far, free, lattice, thin, wrong
 from shared.corpus import golden
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Slab, Sphere
-from raycert.oracle.batch.plan import BALL, CAPPED_BALL, CAPPED_WALL, PLANES, WALL, plan
-from raycert.oracle.batch.trace import trace_batch
+from raycert.oracle.batch.blocks import trace_batch
+from raycert.oracle.batch.leaf import BALL, CAPPED_BALL, CAPPED_WALL, PLANES, WALL, plan
 from shared.batch_rays import FAMILIES, wrong
 
 ORIGIN, X = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)
