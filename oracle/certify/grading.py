@@ -17,8 +17,7 @@ from raycert.cases.protocol import Hello, Reply, convention
 from raycert.cases.row import GoldenRow
 from raycert.oracle.client.process import Failure
 from raycert.oracle.judge.answer import Claim, Listed, claim
-from raycert.oracle.judge.decisive import decisive
-from raycert.oracle.judge.levels import MEASURES, Enclosures, Judge
+from raycert.oracle.judge.levels import MEASURES, Enclosures, Judge, decisive
 
 
 @dataclass(frozen=True)

@@ -21,8 +21,7 @@ from raycert.oracle.exact.intervals import Interval, Intervals
 from raycert.oracle.exact.rounding import decimal, enclose
 from raycert.oracle.exact.surd import INFINITY, Surd, fraction
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.judge.decisive import decisive
-from raycert.oracle.judge.levels import MEASURES, Judge
+from raycert.oracle.judge.levels import MEASURES, Judge, decisive
 from raycert.oracle.witness.crosscheck import Query, check
 
 Progress = Callable[[str], None]

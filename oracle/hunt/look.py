@@ -40,8 +40,7 @@ from raycert.oracle.corpus.golden import golden_row
 from raycert.oracle.exact.faces import touch
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.answer import Claim, First, Listed, claim
-from raycert.oracle.judge.decisive import decisive
-from raycert.oracle.judge.levels import Judge
+from raycert.oracle.judge.levels import Judge, decisive
 from raycert.oracle.judge.moved import LAST_STEP
 from raycert.oracle.zoo.matrix import kind
 

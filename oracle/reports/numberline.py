@@ -123,7 +123,7 @@ class Ruler:
         return max(low, min(x, high))
 
     def shows(self, t: Number) -> bool:
-        """Tell whether t is on the drawing."""
+        """Whether t is on the drawing."""
         return GUTTER <= self.x(t) <= WIDTH
 
 
@@ -230,7 +230,7 @@ class Close:
     """How far the answer's end is from there, in ulps; None where there is no answer's end."""
 
     def unseen(self, lists: CaseLists, axis: Ruler) -> bool:
-        """Tell whether it shows what the axis of the whole is too coarse for.
+        """Whether it shows what the axis of the whole is too coarse for.
 
         An end that is off by less than a few pixels, or an interval as short that was not met.
         """

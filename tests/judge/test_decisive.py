@@ -20,8 +20,7 @@ from raycert.cases.model import (
     Union,
 )
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.judge.decisive import decisive
-from raycert.oracle.judge.levels import Judge
+from raycert.oracle.judge.levels import Judge, decisive
 from shared.grid import leaves, rays, solids
 
 ALL = LEVELS
