@@ -40,7 +40,7 @@ from raycert.cases.families.frames import ALIGNED, UPRIGHT, Exact, Number
 from raycert.cases.families.sketch import Ball, Body, Node, Shape, moved, plus, times, two
 from raycert.cases.formats import BINARY32
 from raycert.oracle.measure.errors import Referee
-from raycert.oracle.measure.ranges import MOST, Point, is_stable, sides
+from raycert.oracle.measure.ranges import LEVELS, MOST, Point, sides
 from raycert.oracle.measure.sweeps import Sample, Sweep, root
 from raycert.oracle.measure.way import Answered, Solve
 
@@ -246,7 +246,7 @@ def lending(sweep: Sweep, curve: Mapping[Fraction, Point], first: Fraction) -> l
     else:
         outward = next(side for side in sides(steps, sweep.mild) if first in side)
         outward = outward[outward.index(first) :]
-    return [x for x in outward[:STEPS] if not is_stable(curve[x])]
+    return [x for x in outward[:STEPS] if not LEVELS["stable"](curve[x])]
 
 
 def broken_samples(samples: Iterable[Sample], solve: Solve) -> list[Breakage]:

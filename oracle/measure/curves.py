@@ -23,7 +23,7 @@ from raycert.oracle.measure.causes import Cause, diagnose
 from raycert.oracle.measure.errors import Referee
 from raycert.oracle.measure.facets import CASTERS, Sides, slope
 from raycert.oracle.measure.files import as_csv, finite
-from raycert.oracle.measure.ranges import Ground, Point, Range, Ranges, spelled
+from raycert.oracle.measure.ranges import LEVELS, Ground, Point, Range, Ranges, spelled
 from raycert.oracle.measure.sweeps import SWEEPS, Sample, Sweep
 from raycert.oracle.measure.way import Answered, Solve, Way
 
@@ -325,7 +325,7 @@ def range_rows(stress: Stress) -> list[Data]:
     """Return the ranges and causes of each sweep and way whose curve is whole."""
     return [
         {"sweep": sweep.name, "method": way.name}
-        | {level: _range(getattr(ranges, level), sweep) for level in ("stable", "sound", "exact")}
+        | {level: _range(getattr(ranges, level), sweep) for level in LEVELS}
         | {
             "causes": [
                 {

@@ -97,19 +97,13 @@ class Ground:
         return cls(len(referees), max(floors), quantile(floors, HIGH), decisive)
 
 
-def is_stable(point: Point) -> bool:
-    """Whether every answer of a step is `stable`."""
-    return point.strict <= MOST
-
-
-def is_sound(point: Point) -> bool:
-    """Whether every answer of a step is `sound`."""
-    return point.squared <= MOST
-
-
-def is_exact(point: Point) -> bool:
-    """Whether every answer of a step is the expected list."""
-    return point.exact == point.count
+Holds = Callable[[Point], bool]
+LEVELS: dict[str, Holds] = {
+    "stable": lambda point: point.strict <= MOST,
+    "sound": lambda point: point.squared <= MOST,
+    "exact": lambda point: point.exact == point.count,
+}
+"""Whether every answer of a step is on a level: `exact` is the expected list."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,7 +152,7 @@ class Ranges:
     @classmethod
     def read(cls, sweep: Sweep, curve: Mapping[Fraction, Point]) -> Ranges:
         """Return the ranges of a curve."""
-        return cls(*(reach(sweep, curve, holds) for holds in (is_stable, is_sound, is_exact)))
+        return cls(**{level: reach(sweep, curve, holds) for level, holds in LEVELS.items()})
 
 
 def spelled(steps: Range, sweep: Sweep) -> str:

@@ -98,15 +98,15 @@ def test_sections_come_in_one_order_and_are_written(
 ) -> None:
     monkeypatch.setattr(files, "QUICK", Effort(4, 2, 1, 0.1, 500, (6, 4), (8, 6), 2, 4))
     out = tmp_path / "new"
-    words = ("--section", "scenes", "--section", "batch", "--quick", "--seed", "3")
+    words = ("--section", "scenes", "--section", "scalar", "--quick", "--seed", "3")
     found = run(*words, "--out", str(out))
     assert found.exit_code == 0, found.output
     form = json.loads((out / "bench.json").read_text())
-    assert list(form["sections"]) == ["batch", "scenes"]
+    assert list(form["sections"]) == ["scalar", "scenes"]
     assert form["seed"] == 3
     assert form["rows"] == []
     assert all(form["sections"].values())
-    assert found.output.index("naive") < found.output.index("with nothing left out")
+    assert found.output.index("scalar, touching") < found.output.index("with nothing left out")
     assert "seed 3" in found.output
 
 
