@@ -9,7 +9,7 @@ import click
 
 from raycert.cases.levels import TIERS
 from raycert.oracle.commands.asking import from_json
-from raycert.oracle.commands.options import PRECISIONS, BadInput, check_writable
+from raycert.oracle.commands.options import FOLDER, PRECISIONS, BadInput, check_writable
 
 if TYPE_CHECKING:
     from raycert.cases.formats import Format
@@ -55,9 +55,7 @@ or the corpus has the case already.
     help="Number format of FILE, where its folder does not tell.",
 )
 @click.option(
-    "--corpus",
-    type=click.Path(file_okay=False, path_type=Path),
-    help="The corpus  [default: the project's own, in a checkout]",
+    "--corpus", type=FOLDER, help="The corpus  [default: the project's own, in a checkout]"
 )
 def adopt(file: Path, family: str, slug: str | None, corpus: Path | None, **options: Any) -> None:
     """Keep a found case: check it with all witnesses, name it, and make its golden rows.

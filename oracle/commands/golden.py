@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from raycert.oracle.commands.options import check_writable
+from raycert.oracle.commands.options import FOLDER, KNOWN_FOLDER, check_writable, counting
 
 if TYPE_CHECKING:
     from raycert.cases.case import Family
 
-FOLDER = click.option(
+folder_option = click.option(
     "--golden",
     "folder",
-    type=click.Path(file_okay=False, path_type=Path),
+    type=FOLDER,
     help="Directory of the golden files  [default: the installed corpus]",
 )
-CORPUS = click.option(
+corpus_option = click.option(
     "--corpus",
-    type=click.Path(exists=True, file_okay=False, path_type=Path),
+    type=KNOWN_FOLDER,
     help="A corpus that raycert adopt made: its own families, its own golden files.",
 )
 
@@ -33,8 +31,8 @@ def golden() -> None:
 
 
 @golden.command(epilog="In a checkout: raycert golden write --golden cases/golden")
-@FOLDER
-@CORPUS
+@folder_option
+@corpus_option
 @click.option(
     "--release",
     is_flag=True,
@@ -52,8 +50,9 @@ def write(folder: Path | None, corpus: Path | None, release: bool) -> None:
     target, families = _place(folder, corpus)
     check_writable(target, "--golden")
     try:
-        with _progress("computing") as progress:
-            files = write_files(target, families, progress, RELEASE if release else USUAL)
+        with counting("computing") as advance:
+            witnesses = RELEASE if release else USUAL
+            files = write_files(target, families, lambda _: advance(), witnesses)
     except Contradiction as error:
         raise click.ClickException(f"nothing was written. {error}") from None
     rows = sum(data.count(b"\n") for data in files.values())
@@ -61,8 +60,8 @@ def write(folder: Path | None, corpus: Path | None, release: bool) -> None:
 
 
 @golden.command()
-@FOLDER
-@CORPUS
+@folder_option
+@corpus_option
 def check(folder: Path | None, corpus: Path | None) -> None:
     """Compute every row and compare bytes and values with the files; exit 1 on any difference."""
     from raycert.oracle.corpus.golden import compare
@@ -70,8 +69,8 @@ def check(folder: Path | None, corpus: Path | None) -> None:
     target, families = _place(folder, corpus)
     if not target.is_dir():
         raise click.BadParameter(f"no such directory: {target}", param_hint="--golden")
-    with _progress("computing") as progress:
-        drifts = compare(target, families, progress)
+    with counting("computing") as advance:
+        drifts = compare(target, families, lambda _: advance())
     for drift in drifts[:20]:
         click.echo(f"{drift.file}: {drift.what}")
     if len(drifts) > 20:
@@ -93,12 +92,3 @@ def _place(folder: Path | None, corpus: Path | None) -> tuple[Path, tuple[Family
     if folder is not None:
         raise click.UsageError("--corpus has its golden files in itself: give no --golden")
     return corpus / "golden", sources(corpus)
-
-
-@contextmanager
-def _progress(verb: str) -> Iterator[Callable[[str], None]]:
-    """Show how many rows are done, on a terminal only."""
-    from raycert.oracle.commands.options import counting
-
-    with counting(verb) as advance:
-        yield lambda _: advance()

@@ -141,9 +141,9 @@ def _hunt(job: Job, options: dict[str, Any]) -> Hunt:
 
     from raycert.oracle.client.dialogue import Unusable
     from raycert.oracle.hunt.executors import Cluster, Executor, Here, Lost, Processes
+    from raycert.oracle.hunt.pursuit import work
     from raycert.oracle.hunt.search import Budget
     from raycert.oracle.hunt.search import hunt as run
-    from raycert.oracle.hunt.ways import work
 
     seconds = None if options["cases"] else options["seconds"] or SECONDS
     budget, work_here = Budget(options["cases"], seconds, options["most"]), partial(work, job)

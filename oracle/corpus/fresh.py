@@ -52,7 +52,7 @@ def fresh_rows(
 
 
 def possible(solids: Collection[str]) -> bool:
-    """Tell whether cases can be drawn of these types: a tree needs leaves."""
+    """Whether cases can be drawn of these types: a tree needs leaves."""
     return any(name in solids and not issubclass(kind, Tree) for name, kind in SOLIDS.items())
 
 

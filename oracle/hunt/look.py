@@ -74,7 +74,7 @@ class Flaw:
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class Observation:
     """What came of a look: the flaw if there is one, about how large k is (1 where <= 1), ulps."""
 
     flaw: Flaw | None = None
@@ -82,7 +82,7 @@ class Look:
     ulps: float = 0.0
 
 
-RIGHT = Look()
+RIGHT = Observation()
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,25 +112,33 @@ class Looker:
         fmt, tolerance = self.hello.format, self.hello.tolerance
         return Judge(probe.solid, probe.ray, fmt, self.tier(probe), tolerance)
 
-    def __call__(self, probe: Probe, outcome: Outcome) -> Look:
+    def __call__(self, probe: Probe, outcome: Outcome) -> Observation:
         """Return what comes of a look at an answer."""
         if silent := silence(outcome):
-            return Look(Flaw("sound", *silent), inf)
+            return Observation(Flaw("sound", *silent), inf)
         assert isinstance(outcome, Reply)
         said, judge = claim(outcome, self.hello), self.judge(probe)
         if isinstance(said, Listed) and said.pairs == judge.expected:
-            return RIGHT if self.criterion.convention is None else Look(self._unkept(said, judge))
+            return (
+                RIGHT
+                if self.criterion.convention is None
+                else Observation(self._unkept(said, judge))
+            )
         if malformed := said.malformed(judge):
-            return Look(Flaw("sound", "malformed", malformed), inf)
+            return Observation(Flaw("sound", "malformed", malformed), inf)
         if unkept := self._unkept(said, judge):
-            return Look(unkept)
+            return Observation(unkept)
         if said.is_faithful(judge.expected, judge.enclosures) is None:
-            return Look(self._finer(probe, outcome)) if self.criterion.level == "exact" else RIGHT
+            return (
+                Observation(self._finer(probe, outcome))
+                if self.criterion.level == "exact"
+                else RIGHT
+            )
         k = coarse_k(said, judge)
         flaw = self._gross(said, judge)
         if flaw is None and self.criterion.level in ("faithful", "exact"):
             flaw = self._finer(probe, outcome)
-        return Look(flaw, k, said.forward_error(judge))
+        return Observation(flaw, k, said.forward_error(judge))
 
     def _unkept(self, said: Claim, judge: Judge) -> Flaw | None:
         """Return the flaw of a touch kept or dropped against the convention asked for."""

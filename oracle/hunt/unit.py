@@ -2,7 +2,7 @@
 
 The same unit of the same job gives the same result wherever it is done, and however often: so a
 unit that was lost with its worker is done again. Of three units two are of the directed search, and
-one of that which Hypothesis drives (ways). The target is started anew for each.
+one of that which Hypothesis drives (pursuit). The target is started anew for each.
 
 The ledger has the results. One may come twice, where a unit was done again because its worker
 seemed lost; it is the same one, and the second is dropped. Results that come early wait for the
@@ -21,7 +21,7 @@ from raycert.cases.corpus import GOLDEN
 from raycert.cases.model import SOLIDS
 from raycert.cases.numbers import Probe
 from raycert.oracle.client.dialogue import Limits, Outcome, Target
-from raycert.oracle.hunt.look import Criterion, Flaw, Look, Looker
+from raycert.oracle.hunt.look import Criterion, Flaw, Looker, Observation
 from raycert.oracle.hunt.session import Clock, Session
 
 CASES = 1000
@@ -108,7 +108,7 @@ class Site:
         self._counts = Counter[tuple[str, str, str]]()
         self._history: tuple[Probe, ...] = ()
 
-    def look(self, probes: list[Probe]) -> list[tuple[Probe, Look]]:
+    def look(self, probes: list[Probe]) -> list[tuple[Probe, Observation]]:
         """Ask the probes that count. Raises `Spent` once no case is left, and `TimeUp`."""
         self.clock.check()
         left = self.unit.cases - self.tried
@@ -122,7 +122,7 @@ class Site:
             seen.append((probe, self._note(probe, outcome)))
         return seen
 
-    def _note(self, probe: Probe, outcome: Outcome) -> Look:
+    def _note(self, probe: Probe, outcome: Outcome) -> Observation:
         self.tried += 1
         seen, before = self.looker(probe, outcome), self._history
         self._history = (*before, probe)[-HISTORY:]

@@ -30,16 +30,7 @@ from raycert.oracle.map.sampling import (
 )
 from raycert.oracle.map.topology import KINDS, Kind, between
 
-ORDER = (
-    EXACT,
-    FAITHFUL,
-    RIGHT + WITHIN,
-    FEW + WITHIN,
-    MANY + WITHIN,
-    RIGHT + BEYOND,
-    FEW + BEYOND,
-    MANY + BEYOND,
-)
+ORDER = (EXACT, FAITHFUL, *(how + k for k in (WITHIN, BEYOND) for how in (RIGHT, FEW, MANY)))
 """The classes of a disagreement, from none to the worst."""
 Corner = tuple[int, int]
 """A corner of cells: (i, j) is the lower left one of the cell (i, j)."""

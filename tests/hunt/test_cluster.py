@@ -18,9 +18,9 @@ import pytest
 
 from raycert.oracle.client.inprocess import InProcess
 from raycert.oracle.hunt.executors import Cluster, Here, Lost
+from raycert.oracle.hunt.pursuit import work
 from raycert.oracle.hunt.search import Budget, hunt
 from raycert.oracle.hunt.unit import Haul, Job, Ledger, Unit, Worst
-from raycert.oracle.hunt.ways import work
 from shared.hunted_targets import spec
 
 pytest.importorskip("distributed", reason='needs pip install "raycert[cluster]"')

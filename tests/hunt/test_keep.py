@@ -11,9 +11,9 @@ from raycert.oracle.client.inprocess import InProcess
 from raycert.oracle.client.process import Failure
 from raycert.oracle.hunt import keep
 from raycert.oracle.hunt.executors import Here
+from raycert.oracle.hunt.pursuit import work
 from raycert.oracle.hunt.search import Budget, hunt
 from raycert.oracle.hunt.unit import Job
-from raycert.oracle.hunt.ways import work
 from raycert.oracle.zoo.inhabitants import BY_NAME
 from shared.hunted_targets import spec
 

@@ -9,9 +9,9 @@ from raycert.oracle.client.dialogue import Unusable
 from raycert.oracle.client.inprocess import InProcess
 from raycert.oracle.hunt.executors import Here, Lost, Processes
 from raycert.oracle.hunt.look import UNREPEATED
+from raycert.oracle.hunt.pursuit import work
 from raycert.oracle.hunt.search import Budget, hunt
 from raycert.oracle.hunt.unit import Job
-from raycert.oracle.hunt.ways import work
 from shared.hunted_targets import spec
 
 SMALL = Budget(cases=360, unit=120, most=3)

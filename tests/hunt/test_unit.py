@@ -9,8 +9,8 @@ import pytest
 from raycert.cases.model import types
 from raycert.oracle.client.inprocess import InProcess
 from raycert.oracle.hunt.look import Criterion
+from raycert.oracle.hunt.pursuit import work
 from raycert.oracle.hunt.unit import EACH, Job, Unit, coarse
-from raycert.oracle.hunt.ways import work
 from shared.hunted_targets import spec
 
 FAULTY = Job(InProcess("callable", spec("padded-radius")), golden=None)

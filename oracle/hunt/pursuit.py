@@ -33,7 +33,7 @@ from raycert.cases.formats import FORMATS, Format
 from raycert.cases.forms import read_ray, read_solid
 from raycert.cases.numbers import Probe, between, numbers, ordinal
 from raycert.oracle.corpus.fresh import possible
-from raycert.oracle.hunt.look import Look
+from raycert.oracle.hunt.look import Observation
 from raycert.oracle.hunt.moves import MOVES, form, of_format, on_lattice, overflow, pick
 from raycert.oracle.hunt.session import TimeUp
 from raycert.oracle.hunt.unit import Haul, Job, Site, Spent, Suspect, Unit, coarse
@@ -106,14 +106,14 @@ class _Search:
         """Return the probes that may be asked about."""
         return [probe for probe in probes if self.site.looker.wants(probe)]
 
-    def _rank(self, seen: list[tuple[Probe, Look]]) -> None:
+    def _rank(self, seen: list[tuple[Probe, Observation]]) -> None:
         for probe, what in seen:
             if what.flaw is None and what.k > 1:
                 key = type(probe.solid).__name__, " ".join(form(probe)[0][:4])
                 if what.k > self.best.get(key, (0.0, probe))[0]:
                     self.best[key] = what.k, probe
 
-    def _halve(self, seen: dict[Probe, Look], moves: list[tuple[Probe, Probe]]) -> None:
+    def _halve(self, seen: dict[Probe, Observation], moves: list[tuple[Probe, Probe]]) -> None:
         """Go from the first failure of each kind toward the case that it was moved from."""
         for old, new in moves:
             flaw = seen[new].flaw if new in seen else None
