@@ -1,13 +1,11 @@
 """Which levels an implementation reaches, on which solids, and the evidence for it.
 
-Its modules:
-
-    run          from a plan to a result: greet, select, ask, grade
-    selection    which rows are sent
-    grading      one row, one outcome: the levels it passes, and how far off the answer is
-    verdict      levels by type of solid, conventions, and whether what was asked is granted
-    certificate  all of it as JSON, with the case table and the worst answers
-    diagnosis    what the failures have in common, and where the answers belie the hello
-    known        a file of known failures, and how a run compares with it
-    environment  the tool to the byte, versions and machine
+run          from a plan to a result: greet, select, ask, grade
+selection    which rows are sent
+grading      one row, one outcome: the levels it passes, and how far off the answer is
+verdict      levels by type of solid, conventions, and whether what was asked is granted
+certificate  all of it as JSON, with the case table and the worst answers
+diagnosis    what the failures have in common, and where the answers belie the hello
+known        a file of known failures, and how a run compares with it
+environment  the tool to the byte, versions and machine
 """

@@ -1,13 +1,11 @@
 """The certificate as people and machines read it: each report is a function from it to text.
 
-Its modules:
-
-    reading     what a certificate says, said once for every report; what may be printed of a client
-    terminal    the certificate on a terminal
-    markdown    the certificate for the summary of a CI job
-    junit       the certificate as JUnit XML
-    page        the certificate as one HTML page, and the list of all forms
-    picture     the pictures of one case
-    numberline  intervals over a line of t, exact to the pixel, as SVG
-    section     a ray and a solid in a plane: what to look at, from where, and how large
+reading     what a certificate says, said once for every report; what may be printed of a client
+terminal    the certificate on a terminal
+markdown    the certificate for the summary of a CI job
+junit       the certificate as JUnit XML
+page        the certificate as one HTML page, and the list of all forms
+picture     the pictures of one case
+numberline  intervals over a line of t, exact to the pixel, as SVG
+section     a ray and a solid in a plane: what to look at, from where, and how large
 """
