@@ -55,7 +55,7 @@ Examples:
       --x ray.origin[1] --y solid.radius --out tangent.png
   raycert map far-grazing/cylinder-tangent-1e8 --x ray.origin[1] --y solid.radius \\
       --unit units --span 1e-7 --show disagreement \\
-      --target oracle.textbook:textbook --out lost.svg --out lost.csv
+      --target raycert.oracle.zoo.textbook:textbook --out lost.svg --out lost.csv
   raycert map --json case.json --x ray.origin[0]=1,ray.origin[2]=1 \\
       --y solid.of[1].q[2] --unit units --span 0.5 --out film.png
 
