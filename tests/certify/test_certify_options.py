@@ -13,8 +13,6 @@ from click.testing import CliRunner, Result
 
 from raycert.oracle.commands.certify import certify
 
-CLIENTS = Path(__file__).parents[1] / "clients"
-
 
 @pytest.fixture(autouse=True)
 def importable(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

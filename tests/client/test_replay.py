@@ -18,8 +18,8 @@ from raycert.cases.protocol import Reply
 from raycert.oracle.client.dialogue import Limits, Question, Unusable, fresh_ids
 from raycert.oracle.client.process import Failure
 from raycert.oracle.client.replay import Interrupted, Run, greet, run
+from shared.places import CLIENTS
 
-CLIENTS = Path(__file__).parents[1] / "clients"
 CAN = Cylinder((0, 0, 0), (0, 0, 1), 1)
 SHORT = Limits(hello=10.0, case=0.6)
 

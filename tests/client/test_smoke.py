@@ -7,7 +7,6 @@ import sys
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
-from pathlib import Path
 
 import pytest
 
@@ -29,6 +28,7 @@ from raycert.oracle.client.dialogue import Limits, Outcome
 from raycert.oracle.client.process import Failure
 from raycert.oracle.client.replay import run
 from raycert.oracle.client.smoke import EASY, Easy, adapter_faults, easy, limits
+from shared.places import CLIENTS
 
 Point = tuple[Fraction, ...]
 DECLARED = [
@@ -302,7 +302,7 @@ def test_a_yes_is_compared_with_whether_there_is_a_hit():
 
 
 def test_a_client_that_does_not_flush_is_diagnosed_soon():
-    script = Path(__file__).parents[1] / "clients" / "swallows.py"
+    script = CLIENTS / "swallows.py"
     usual = Limits(case=0.3)
     result = run(
         [sys.executable, str(script), "late"], [c.question for c in CYLINDERS], limits(usual)

@@ -18,8 +18,8 @@ from raycert.oracle.client.process import Failure
 from raycert.oracle.client.replay import Run, greet, run
 from raycert.oracle.client.target import load, target
 from raycert.reference import tracer
+from shared.places import CLIENTS
 
-CLIENTS = Path(__file__).parents[1] / "clients"
 CAN = Cylinder((0, 0, 0), (0, 0, 1), 1)
 SHORT = Limits(case=0.6)
 

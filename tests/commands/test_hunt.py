@@ -9,6 +9,7 @@ from click.testing import CliRunner
 from raycert.oracle.commands.certify import certify
 from raycert.oracle.commands.hunt import hunt
 from shared.hunted_targets import spec
+from shared.places import TESTS
 
 
 def run(*words: str):
@@ -17,7 +18,7 @@ def run(*words: str):
 
 @pytest.fixture(autouse=True)
 def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[1]))
+    monkeypatch.setenv("PYTHONPATH", str(TESTS))
 
 
 @pytest.fixture

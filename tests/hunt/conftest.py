@@ -1,10 +1,10 @@
 """The targets of these tests are importable in worker processes."""
 
-from pathlib import Path
-
 import pytest
+
+from shared.places import TESTS
 
 
 @pytest.fixture(autouse=True)
 def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[1]))
+    monkeypatch.setenv("PYTHONPATH", str(TESTS))

@@ -22,11 +22,11 @@ from raycert.oracle.hunt.pursuit import work
 from raycert.oracle.hunt.search import Budget, hunt
 from raycert.oracle.hunt.unit import Haul, Job, Ledger, Unit, Worst
 from shared.hunted_targets import spec
+from shared.places import TESTS
 
 pytest.importorskip("distributed", reason='needs pip install "raycert[cluster]"')
 pytestmark = pytest.mark.filterwarnings("default")  # those of Dask are its own
 
-ROOT = Path(__file__).parents[2]
 START = {
     "scheduler": (
         "import asyncio, sys\n"
@@ -51,14 +51,12 @@ START = {
 
 def started(kind: str, *words: str) -> tuple[subprocess.Popen[str], str]:
     """Start a process of the cluster; return it and its address."""
-    paths = os.pathsep.join((str(ROOT), str(Path(__file__).parents[1])))
     process = subprocess.Popen(
         [sys.executable, "-c", START[kind], *words],
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         text=True,
-        env=os.environ | {"PYTHONPATH": paths},
-        cwd=ROOT,
+        env=os.environ | {"PYTHONPATH": str(TESTS)},
     )
     assert process.stdout
     return process, process.stdout.readline().strip()

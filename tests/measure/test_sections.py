@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import sys
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,8 +17,8 @@ from raycert.oracle.measure.pictures import costs
 from raycert.oracle.measure.rays import ARRAYS, LEAVES, arrays, rays_of
 from raycert.oracle.measure.sections import SECTIONS, aimed, command, lines, over, price, steps
 from raycert.oracle.measure.way import missing, questions
+from shared.places import CLIENTS
 
-CLIENTS = Path(__file__).parents[1] / "clients"
 TINY = Effort(4, 0, 1, 0.1, 500, (8, 5), (16, 12), 2, 6)
 CHEAP = ("batch", "libraries", "scenes", "pipe")
 SHARES = {"float64": 0.5, "double-double": 0.5, "rational": 0.0, "integer": 0.0}

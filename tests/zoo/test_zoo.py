@@ -22,9 +22,9 @@ from raycert.oracle.zoo.inhabitants import BY_NAME, FAULTS, PROCESS, SOUND
 from raycert.oracle.zoo.matrix import Outcome, Trials, kind, line
 from raycert.oracle.zoo.tracer import BASE
 from shared.corpus import golden
+from shared.places import TESTS
 
 HARMLESS = fault("harmless", "does nothing wrong", "nowhere", "behind", "missed")
-TESTS = Path(__file__).parents[1]
 
 
 @cache

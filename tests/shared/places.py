@@ -1,0 +1,6 @@
+"""Where the tests lie, for programs and processes that are started from elsewhere."""
+
+from pathlib import Path
+
+TESTS = Path(__file__).parents[1]
+CLIENTS = TESTS / "clients"
