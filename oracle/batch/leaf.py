@@ -15,7 +15,17 @@ from math import frexp, inf, isqrt, ldexp
 import numpy as np
 from numpy.typing import NDArray
 
-from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Leaf, Slab, Sphere, Vector
+from raycert.cases.model import (
+    Cylinder,
+    HalfSpace,
+    InfiniteCylinder,
+    Leaf,
+    Slab,
+    Sphere,
+    Vector,
+    points,
+)
+from raycert.cases.model import radius as radius_of
 
 PLANES, BALL, WALL, CAPPED_BALL, CAPPED_WALL = range(5)
 """The kinds of lane: no curved face; a sphere or aligned cylinder; a tilted one; and with caps."""
@@ -84,7 +94,7 @@ def _plan(leaf: Leaf) -> LeafPlan:
     low, high = CURVED_RANGE if curved else PLANE_RANGE
     first, second = _points(leaf)
     axis, w = _axis(leaf)
-    radius = 0.0 if isinstance(leaf, HalfSpace | Slab) else leaf.radius
+    radius = radius_of(leaf)
     stretch = ldexp(1.0, -_unit(radius, (*first, *second)))
     radius = _held("the radius", radius, stretch, low, high)
     square = sum((x * x for x in axis), Fraction(0)) if _tilted(leaf, axis) else Fraction(1)
@@ -130,12 +140,8 @@ def _keep(leaf: Leaf, axis: tuple[Fraction, ...]) -> tuple[bool, bool, bool]:
 
 
 def _points(leaf: Leaf) -> tuple[Vector, Vector]:
-    match leaf:
-        case HalfSpace(point, _):
-            return point, point
-        case Sphere(center, _):
-            return center, center
-    return leaf.p, leaf.q
+    ends = points(leaf)
+    return ends[0], ends[-1]
 
 
 def _axis(leaf: Leaf) -> tuple[tuple[Fraction, ...], Pairs]:

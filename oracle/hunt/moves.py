@@ -32,6 +32,7 @@ from raycert.cases.model import (
     Tree,
     Union,
     Vector,
+    axis,
     leaves,
     map_leaves,
 )
@@ -65,10 +66,8 @@ def of_format(probes: Iterable[Probe | None], fmt: Format) -> list[Probe]:
 
 def axis_of(leaf: Leaf) -> Vector:
     """Return a direction that matters to a leaf."""
-    if isinstance(leaf, HalfSpace):
-        return leaf.normal
-    w = ZERO if isinstance(leaf, Sphere) else minus(leaf.q, leaf.p)
-    return w if any(w) else (0.0, 0.0, 1.0)
+    w = axis(leaf)
+    return w if w and any(w) else (0.0, 0.0, 1.0)
 
 
 def changed(
