@@ -118,11 +118,7 @@ def certificate(
         "passed": passed,
         "accepted": bool(known and grades and not ran.interrupted and not surprises),
         "reasons": list(verdict.reasons),
-        "asked": {"level": request.level, "convention": request.convention},
-        "selection": list(request.selection),
-        "shard": shard,
-        "subject": {"command": list(request.command), **asdict(hello)},
-        "corpus": _corpus(corpus),
+        **_question(request, hello, corpus, shard),
         "fresh": fresh,
         "tool": environment["tool"],
         "environment": {name: x for name, x in environment.items() if name != "tool"},
@@ -136,13 +132,20 @@ def certificate(
     }
 
 
-def _corpus(corpus: Corpus) -> Json:
+def _question(request: Request, hello: Hello, corpus: Corpus, shard: str | None) -> Json:
+    """Return what was asked, of whom, and of which rows."""
     return {
-        "version": corpus.version,
-        "format": FORMAT_VERSION,
-        "manifest_sha256": corpus.sha256,
-        "precision": corpus.precision,
-        "rows": len(corpus.rows),
+        "asked": {"level": request.level, "convention": request.convention},
+        "selection": list(request.selection),
+        "shard": shard,
+        "subject": {"command": list(request.command), **asdict(hello)},
+        "corpus": {
+            "version": corpus.version,
+            "format": FORMAT_VERSION,
+            "manifest_sha256": corpus.sha256,
+            "precision": corpus.precision,
+            "rows": len(corpus.rows),
+        },
     }
 
 
