@@ -75,11 +75,6 @@ def _inputs(run: Probe) -> Any:
     return rows if run is probe else rows[:, 0].copy()
 
 
-def trustworthy(run: Probe = probe) -> bool:
-    """Tell whether the floating point of an engine is what the proofs need."""
-    return not untrustworthy(run)
-
-
 LeafBlock = Callable[[LeafPlan, Floats], Outcomes]
 ENGINES = ("auto", "numpy", "numba")
 
