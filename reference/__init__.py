@@ -10,6 +10,10 @@ off the lattice may be answered as a near miss, or the other way about. Lengths,
 direction are scaled by powers of two, each by its own, so there is no overflow inside; what may
 overflow is t itself, which then is infinite, also where it is an `enter`.
 
-To port it: `vectors` (dot, cross, exact scaling), `quadratic` (Problem 1), `tracer` (Problems 2
-and 3 and every solid), `intervals` (the algebra of lists, for trees only).
+To port it (reference/README.md), in this order:
+
+vectors     dot, cross, exact scaling
+quadratic   Problem 1
+tracer      Problems 2 and 3 and every solid
+intervals   the algebra of lists, for trees only
 """

@@ -4,6 +4,6 @@ style      fonts, greys, marks and lines; how a plot is written
 pareto     error against run time
 stiffness  error against stiffness
 standing   where one implementation sits in both
-cells      the picture around a case
+mapping    the picture around a case
 heatmap    values of a scene, pixel by pixel
 """

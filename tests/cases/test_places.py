@@ -8,6 +8,7 @@ in integers. Beside the places below it needs its rows in `cases.table` if they 
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -88,6 +89,11 @@ def test_a_solid_is_added_in_the_places_that_are_listed() -> None:
     unlisted = {module: names for module, names in found.items() if module not in PLACES}
     assert not unlisted, "tell leaves apart, and are not in PLACES"
     assert not set(PLACES) - set(found), "are in PLACES, and tell no leaves apart"
+
+
+def test_the_readme_lists_the_same_places() -> None:
+    section = (ROOT / "README.md").read_text("utf-8").partition("## To add a solid")[2]
+    assert dict(re.findall(r"^- `([\w.]+)`: (.+)$", section, re.M)) == PLACES
 
 
 @pytest.mark.parametrize(
