@@ -40,16 +40,13 @@ class Corpus:
 
     @property
     def format(self) -> Format:
-        """Return the number format of the rows."""
         return FORMATS[self.precision]
 
     def row(self, id: str) -> GoldenRow | None:
-        """Return the row with this id, or None."""
         return next((row for row in self.rows if row.id == id), None)
 
 
 def encode_rows(rows: Iterable[GoldenRow], fmt: Format) -> bytes:
-    """Return the bytes of a golden file."""
     lines = (json.dumps(write_row(row, fmt), separators=(",", ":")) + "\n" for row in rows)
     return "".join(lines).encode("ascii")
 

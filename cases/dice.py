@@ -40,5 +40,4 @@ class Dice:
     def vector(
         self, fmt: Format, low: float = -1.0, high: float = 1.0
     ) -> tuple[float, float, float]:
-        """Return three such numbers."""
         return (self.real(fmt, low, high), self.real(fmt, low, high), self.real(fmt, low, high))

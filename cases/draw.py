@@ -54,11 +54,9 @@ class Draw:
     fmt: Format
 
     def whole(self, low: int, high: int) -> int:
-        """Return an integer of low..high."""
         return self.dice.integer(low, high)
 
     def pick(self, items: Sequence[T]) -> T:
-        """Return one of the items."""
         return items[self.whole(0, len(items) - 1)]
 
     def chance(self, times: int, of: int) -> bool:
@@ -66,7 +64,6 @@ class Draw:
         return self.whole(1, of) <= times
 
     def sign(self) -> int:
-        """Return 1 or -1."""
         return self.pick((1, -1))
 
     def large(self) -> Fraction:
@@ -224,7 +221,6 @@ def _tangent(draw: Draw) -> Shot:
 
 
 def _gap(draw: Draw) -> Shot:
-    """Return a tangent moved in or out by a small share of the radius."""
     shot = _contact(draw)
     beside = times(1 + draw.sign() * draw.gap(), shot.origin)
     return shot.but(origin=beside, known=None).back(draw.whole(0, 9))
@@ -257,7 +253,6 @@ def _face(draw: Draw) -> Shot:
 
 
 def _rest(draw: Draw) -> Shot:
-    """Return a ray with no direction, inside, on a face or outside."""
     shot = any_shot(draw)
     ends = _faces(shot)
     at = plus(shot.origin, shot.direction, draw.pick((*ends, *ends, Fraction(1, 2), 2, -2)))

@@ -35,7 +35,6 @@ class Format:
 
     @property
     def largest(self) -> float:
-        """Return the largest finite number."""
         return math.ldexp(2.0**self.precision - 1.0, self.overflow - self.precision)
 
     @property

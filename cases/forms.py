@@ -32,7 +32,6 @@ DEEPEST = 200
 
 
 def write_ray(ray: Ray, spelling: Spelling = "decimal", fmt: Format = BINARY64) -> Json:
-    """Return the ray as a JSON object."""
     return {name: [spell(x, spelling, fmt) for x in getattr(ray, name)] for name in Ray.__slots__}
 
 
@@ -128,10 +127,7 @@ def _reader(spelling: Spelling, fmt: Format) -> Callable[[str, object], Any]:
 WriteNumber = Callable[[float], str]
 WriteVector = Callable[[Vector], str]
 _OBJECTS = {
-    kind: (
-        f'{{"type":"{name}"',
-        tuple((field.name, f',"{field.name}":') for field in fields(kind)),
-    )
+    kind: (f'{{"type":"{name}"', tuple((field.name, f',"{field.name}":') for field in fields(kind)))
     for kind, name in TYPE_NAMES.items()
 }
 """How the object of each type begins; its fields, each with what stands before its value."""

@@ -34,7 +34,6 @@ class Refused(ValueError):
     """An input outside the contract: `path` names the field, `reason` says what is wrong."""
 
     def __init__(self, path: str, reason: str) -> None:
-        """Join path and reason into the message a person reads."""
         super().__init__(f"{_shown(path)}: {reason}" if path else reason)
         self.path = path
         self.reason = reason
@@ -298,7 +297,6 @@ class Shape(NamedTuple):
 
     @classmethod
     def of(cls, kind: type[Leaf]) -> Shape:
-        """Read the annotations of a type."""
         named = [(field.name, field.type) for field in fields(kind)]
         return cls(*(tuple(n for n, sort in named if sort == each) for each in _READ))
 

@@ -59,7 +59,6 @@ class Hello:
 
     @property
     def format(self) -> Format:
-        """Return the number format of the declared precision."""
         return FORMATS[self.precision]
 
 
@@ -99,7 +98,6 @@ def _shown(line: bytes) -> str:
 
 
 def reply_intervals(id: str, pairs: Iterable[tuple[float, float]], hello: Hello) -> bytes:
-    """Return the line that answers a case with an interval list."""
     spelled = [[spell(x, hello.numbers, hello.format) for x in pair] for pair in pairs]
     return encode({"id": id, "intervals": spelled})
 
@@ -110,12 +108,10 @@ def reply_first(id: str, t: float | None, hello: Hello) -> bytes:
 
 
 def reply_hit(id: str, hit: bool) -> bytes:
-    """Return the line that answers a case with whether there is a hit."""
     return encode({"id": id, "hit": hit})
 
 
 def write_hello(hello: Hello) -> bytes:
-    """Return the line that declares an implementation."""
     fields = {name: getattr(hello, name) for name in Hello.__slots__}
     return encode({"hello": VERSION, **fields, "solids": list(hello.solids)})
 
@@ -303,7 +299,6 @@ def serve(
 
 
 def answer(line: bytes, intersect: Intersect, hello: Hello) -> bytes:
-    """Return the line that answers one line."""
     try:
         message = decode(line)
     except BadLine as error:
@@ -320,7 +315,6 @@ def answer(line: bytes, intersect: Intersect, hello: Hello) -> bytes:
 
 
 def _reply(id: str, pairs: Pairs, hello: Hello) -> bytes:
-    """Return the line that answers in the form that the hello promises."""
     if any(isnan(enter) or isnan(leave) for enter, leave in pairs):
         return encode({"id": id, "error": f"the answer holds NaN: {pairs!r:.200}"})
     if hello.answers == "first":

@@ -97,11 +97,9 @@ class Pool:
         return cls(tuple(points), tuple(lines), tuple(radii), fmt)
 
     def point(self, pick: int | Vector) -> Vector:
-        """Return the point picked."""
         return self.points[pick % len(self.points)] if isinstance(pick, int) else pick
 
     def axis(self, pick: int | Axis) -> Axis:
-        """Return the axis picked."""
         return self.axes[pick % len(self.axes)] if isinstance(pick, int) else pick
 
     def radius(self, pick: int | float) -> float:
@@ -119,7 +117,6 @@ class LeafRecipe:
     radius: int | float = 0
 
     def count(self) -> int:
-        """Return 1, the number of its leaves."""
         return 1
 
 
@@ -131,7 +128,6 @@ class TreeRecipe:
     of: list[Recipe]
 
     def count(self) -> int:
-        """Return the number of its leaves."""
         return sum(part.count() for part in self.of)
 
 
@@ -175,7 +171,6 @@ def alike(leaf: LeafRecipe, pick: int, radii: tuple[int | float, int | float]) -
 
 
 def make_leaf(recipe: LeafRecipe, pool: Pool) -> Leaf:
-    """Return the leaf of a recipe."""
     make: Any = SOLIDS[recipe.kind]
     if make is Sphere:
         return Sphere(pool.point(recipe.point), pool.radius(recipe.radius))
@@ -190,7 +185,6 @@ def make_leaf(recipe: LeafRecipe, pool: Pool) -> Leaf:
 
 
 def make_solid(recipe: Recipe, pool: Pool) -> Solid:
-    """Return the leaf or the tree of a recipe."""
     if isinstance(recipe, LeafRecipe):
         return make_leaf(recipe, pool)
     make: Any = SOLIDS[recipe.kind]
@@ -199,7 +193,6 @@ def make_solid(recipe: Recipe, pool: Pool) -> Solid:
 
 
 def make_ray(solids: Iterable[Solid], aim: Aim, pool: Pool) -> Ray:
-    """Return the ray of an aim at the leaves of these solids."""
     if aim.free:
         origin, direction = pool.point(aim.free[0]), aim.free[1]
     else:

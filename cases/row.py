@@ -71,12 +71,10 @@ class GoldenRow:
 
     @property
     def family(self) -> str:
-        """Return the family's name."""
         return self.id.partition("/")[0]
 
 
 def write_row(row: GoldenRow, fmt: Format) -> Json:
-    """Return the row as a JSON object."""
     return {
         "id": row.id,
         "why": row.why,
@@ -123,7 +121,6 @@ def _write_end(end: End) -> Json:
 
 
 def real(number: float) -> str:
-    """Return the string that spells a real of a golden row."""
     return str(spell(number, "hex") or "inf")
 
 
@@ -169,7 +166,6 @@ class _Fields:
         self.path = path
 
     def __call__(self, name: str, kind: type | UnionType) -> Any:
-        """Return one field."""
         if name not in self.form:
             raise Refused(f"{self.path}.{name}", "is missing")
         value = self.form[name]
@@ -178,27 +174,22 @@ class _Fields:
         return value
 
     def inside(self, name: str) -> _Fields:
-        """Return the fields of a field that is an object."""
         return _Fields(self(name, dict), f"{self.path}.{name}")
 
     def many(self, name: str, kind: type[T]) -> tuple[T, ...]:
-        """Return the items of a list, all of one type."""
         items = self(name, list)
         if not all(isinstance(x, kind) and not isinstance(x, bool) for x in items):
             raise Refused(f"{self.path}.{name}", f"is not a list of {kind.__name__}")
         return tuple(items)
 
     def each(self, name: str, read: Callable[[_Fields], T]) -> tuple[T, ...]:
-        """Return the items of a list of objects."""
         items = self(name, list)
         return tuple(read(_Fields(x, f"{self.path}.{name}[{i}]")) for i, x in enumerate(items))
 
     def real(self, name: str) -> float:
-        """Return a number."""
         return _number(self(name, str), f"{self.path}.{name}")
 
     def numbers(self, name: str) -> Numbers:
-        """Return a list of pairs of numbers."""
         path = f"{self.path}.{name}"
         pairs = self(name, list)
         if not all(isinstance(pair, list) and len(pair) == 2 for pair in pairs):

@@ -147,7 +147,6 @@ def read_size(value: object, path: str = "size") -> tuple[int, int]:
 
 
 def shipped() -> tuple[str, ...]:
-    """Return the names of the scenes that come with the package."""
     names = (item.name for item in SHIPPED.iterdir())
     return tuple(sorted(name.removesuffix(".json") for name in names if name.endswith(".json")))
 

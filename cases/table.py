@@ -60,11 +60,9 @@ class Table(tuple[Row, ...]):
     """
 
     def __new__(cls, *rows: Row) -> Table:
-        """Hold the rows."""
         return super().__new__(cls, rows)
 
     def __init__(self, *rows: Row) -> None:
-        """Start with nothing found to follow from signs."""
         self._first = _Step(self, {})
 
     def decide(self, sign: Callable[[str], int]) -> tuple[Row, Signs]:

@@ -29,17 +29,14 @@ N = TypeVar("N", bound=Arithmetic)
 
 
 def plus(a: tuple[N, N, N], b: tuple[N, N, N]) -> tuple[N, N, N]:
-    """Return a + b."""
     return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
 
 
 def minus(a: tuple[N, N, N], b: tuple[N, N, N]) -> tuple[N, N, N]:
-    """Return a - b."""
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def times(k: N, a: tuple[N, N, N]) -> tuple[N, N, N]:
-    """Return k a."""
     return (k * a[0], k * a[1], k * a[2])
 
 
@@ -49,17 +46,11 @@ def along(a: tuple[N, N, N], t: N, b: tuple[N, N, N]) -> tuple[N, N, N]:
 
 
 def dot(a: tuple[N, N, N], b: tuple[N, N, N]) -> N:
-    """Return a . b."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 def cross(a: tuple[N, N, N], b: tuple[N, N, N]) -> tuple[N, N, N]:
-    """Return a x b."""
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 def norm(a: tuple[float, float, float]) -> float:

@@ -54,19 +54,16 @@ def families(folder: Path = FOLDER) -> tuple[Family, ...]:
 
 
 def family(name: str, path: Path) -> Family:
-    """Return the family that a file is."""
     return Family(name, REASON, lambda fmt: list(cases_of(read(path), fmt)))
 
 
 def cases_of(entries: Iterable[Entry], fmt: Format) -> Iterator[Case]:
-    """Yield the cases that are asked in a format."""
     for entry in entries:
         if isinstance(entry, Adopted) and fmt.name in entry.precisions:
             yield entry.case
 
 
 def slug_of(entry: Entry) -> str:
-    """Return the slug that an entry takes."""
     return entry.slug if isinstance(entry, Retired) else entry.case.slug
 
 
@@ -87,13 +84,11 @@ def read(path: Path) -> tuple[Entry, ...]:
 
 
 def encode(entries: Iterable[Entry]) -> bytes:
-    """Return the bytes of a file."""
     lines = (json.dumps(write_entry(entry), separators=(",", ":")) + "\n" for entry in entries)
     return "".join(lines).encode("ascii")
 
 
 def read_entry(form: object) -> Entry:
-    """Return the entry that a JSON object describes, or refuse it."""
     if not isinstance(form, dict):
         raise Refused("case", "is not an object")
     if set(form) == {"slug", "retired"}:
@@ -122,7 +117,6 @@ def read_entry(form: object) -> Entry:
 
 
 def write_entry(entry: Entry) -> Json:
-    """Return an entry as a JSON object."""
     if isinstance(entry, Retired):
         return {"slug": entry.slug, "retired": entry.why}
     case = entry.case

@@ -64,7 +64,6 @@ def bench(slug: str, text: str, shape: Node, flags: Flags, *paths: Path) -> tupl
 
 
 def drum(low: int, high: int, radius: int = 4) -> Shape:
-    """Return the cylinder about z between two heights."""
     return rod((0, 0, low), (0, 0, high), radius)
 
 
@@ -147,11 +146,7 @@ def _pairs(
     `along` and `across` are what rays up the z axis and along the y axis meet in the second one.
     """
     both = along if slug == "rods" else touch(2)
-    lists = (
-        (pair(1, 5), across, along),
-        (touch(3), touch(2), both),
-        (pair(1, 3), MISS, MISS),
-    )
+    lists = ((pair(1, 5), across, along), (touch(3), touch(2), both), (pair(1, 3), MISS, MISS))
     for (make, name), (through, tangent, up) in zip(HOW, lists, strict=True):
         yield from bench(
             f"{slug}-{name}", f"{text}, {name}", make(*two), TOUCHING,
@@ -365,7 +360,6 @@ def _each(count: int, every: int) -> Stretches:
 
 
 def _between(ends: list[int]) -> Pairs:
-    """Return the list with these sorted ends."""
     return spans(*zip(ends[::2], ends[1::2], strict=True))
 
 

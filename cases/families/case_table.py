@@ -160,7 +160,6 @@ def cell_of(one: Motion, two: Motion) -> tuple[str, ...]:
 
 
 def _meet(one: Span | None, two: Span | None = ENDLESS) -> Pairs:
-    """Return the list of what both spans share."""
     if one is None or two is None:
         return MISS
     enter, leave = max(one[0], two[0]), min(one[1], two[1])

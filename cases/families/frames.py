@@ -32,7 +32,6 @@ class Frame:
     shift: Exact = (0, 0, 0)
 
     def vector(self, vector: Exact) -> Exact:
-        """Return the image of a vector."""
         x, y, z = vector
         first, second, third = (
             x * a + y * b + z * c
@@ -41,11 +40,9 @@ class Frame:
         return (first, second, third)
 
     def point(self, point: Exact) -> Exact:
-        """Return the image of a point."""
         return plus(self.vector(point), self.shift)
 
     def scaled(self, factor: Number) -> Frame:
-        """Return this frame with every length multiplied by `factor`."""
         return replace(
             self,
             lateral=times(factor, self.lateral),

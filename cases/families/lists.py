@@ -80,17 +80,14 @@ def _interval(a: Number, b: Number | None) -> str:
 
 
 def u(*of: Term | Stretch) -> Term:
-    """Return a union."""
     return Term("union", of)
 
 
 def n(*of: Term | Stretch) -> Term:
-    """Return an intersection."""
     return Term("intersection", of)
 
 
 def d(*of: Term | Stretch) -> Term:
-    """Return a difference."""
     return Term("difference", of)
 
 

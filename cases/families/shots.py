@@ -68,7 +68,6 @@ class Shot:
     source: str = ""
 
     def but(self, **changes: Any) -> Shot:
-        """Return the same shot with some fields replaced."""
         return replace(self, **changes)
 
     def named(self, slug: str, text: str, *flags: str) -> Shot:
@@ -92,7 +91,6 @@ class Shot:
         return self.but(frame=self.frame.scaled(factor))
 
     def cases(self, fmt: Format) -> Iterator[Case]:
-        """Yield its case in each of its frames."""
         match self.frame:
             case Frame():
                 frames: tuple[Frame, ...] = (self.frame,)
@@ -135,7 +133,6 @@ Line = (
 
 
 def table(*lines: Line) -> tuple[Shot, ...]:
-    """Return the shots of these lines."""
     return tuple(starmap(Shot, lines))
 
 
@@ -171,7 +168,6 @@ Step = Callable[[Format, int], Iterable[Shot]]
 
 
 def ladder(steps: Callable[[Format], Iterable[int]], shots: Step) -> Callable[[Format], Any]:
-    """Return the shots of every step of a format, in their order."""
     return lambda fmt: (shot for k in steps(fmt) for shot in shots(fmt, k))
 
 

@@ -98,17 +98,14 @@ def half_space(level: Number = 0, normal: Number = 1) -> Body:
 
 
 def rod(p: Exact, q: Exact, radius: Number) -> Body:
-    """Return the capped cylinder from p to q."""
     return Body("cylinder", p, q, radius)
 
 
 def pipe(p: Exact, q: Exact, radius: Number) -> Body:
-    """Return the infinite cylinder about the line pq."""
     return Body("infinite_cylinder", p, q, radius)
 
 
 def layer(p: Exact, q: Exact) -> Body:
-    """Return the slab between the planes through p and q."""
     return Body("slab", p, q)
 
 
@@ -118,22 +115,18 @@ def below(point: Exact, normal: Exact) -> Body:
 
 
 def ball(radius: Number, x: Number = 0, y: Number = 0, z: Number = 0) -> Ball:
-    """Return the sphere about (x, y, z)."""
     return Ball((x, y, z), radius)
 
 
 def any_of(*of: Shape) -> Node:
-    """Return a union."""
     return Node("union", of)
 
 
 def all_of(*of: Shape) -> Node:
-    """Return an intersection."""
     return Node("intersection", of)
 
 
 def less(*of: Shape) -> Node:
-    """Return a difference."""
     return Node("difference", of)
 
 
@@ -142,7 +135,6 @@ MAKE: dict[Boolean, Make] = {"union": any_of, "intersection": all_of, "differenc
 
 
 def moved(shape: Shape, by: Exact) -> Shape:
-    """Return a shape moved by a vector."""
     match shape:
         case Ball(center, radius):
             return Ball(plus(center, by), radius)
@@ -158,32 +150,26 @@ def near(fmt: Format, number: Number) -> Fraction:
 
 
 def two(exponent: int) -> Fraction:
-    """Return 2^exponent."""
     return Fraction(2) ** exponent
 
 
 def ten(exponent: int) -> Fraction:
-    """Return 10^exponent."""
     return Fraction(10) ** exponent
 
 
 def plus(a: Exact, b: Exact, times: Number = 1) -> Exact:
-    """Return a + times b."""
     return along(a, times, b)
 
 
 def times(factor: Number, a: Exact) -> Exact:
-    """Return factor a."""
     return (factor * a[0], factor * a[1], factor * a[2])
 
 
 def pair(enter: Number, leave: Number | None) -> Pairs:
-    """Return the list of one known interval."""
     return spans((enter, leave))
 
 
 def touch(t: Number) -> Pairs:
-    """Return the list of one known touch."""
     return pair(t, t)
 
 
@@ -226,7 +212,6 @@ class Pen:
         return written
 
     def vector(self, vector: Exact) -> Vector:
-        """Return the nearest vector of the format."""
         x, y, z = vector
         return (self.real(x), self.real(y), self.real(z))
 

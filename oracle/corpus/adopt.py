@@ -72,7 +72,6 @@ class Candidate:
 
     @property
     def probe(self) -> Probe:
-        """Return the case as numbers."""
         return Probe(self.solid, self.ray)
 
 
@@ -86,7 +85,6 @@ class Adoption:
 
 
 def installed() -> tuple[str, ...]:
-    """Return the names of the witnesses whose libraries are there."""
     names = []
     for name in WITNESSES:
         try:
@@ -216,7 +214,6 @@ def _new(candidate: Candidate, files: dict[str, bytes]) -> None:
 
 
 def _inputs(candidate: Candidate) -> bytes:
-    """Return the case as a golden row spells it."""
     form = {"solid": write_solid(candidate.solid, "hex"), "ray": write_ray(candidate.ray, "hex")}
     return json.dumps(form, separators=(",", ":"))[1:-1].encode()
 
@@ -263,7 +260,6 @@ def slug_for(candidate: Candidate) -> str:
 
 
 def from_row(row: GoldenRow, fmt: Format, why: str) -> Candidate:
-    """Return the case of a golden row, such as one that a hunt wrote."""
     source = "oracle" if row.source == "construction" else row.source
     return Candidate(row.solid, row.ray, fmt, why, source, row.flags)
 

@@ -67,13 +67,11 @@ def golden_row(family: Family, case: Case, fmt: Format, witnesses: Sequence[str]
 
 
 def span(interval: Interval, solid: Solid, ray: Ray, fmt: Format) -> Span:
-    """Return an exact interval as a row holds it."""
     enter, leave = (end(t, solid, ray, fmt) for t in interval)
     return Span(enter, leave, None if isinstance(solid, Tree) else touch(interval, solid, ray))
 
 
 def end(t: Surd, solid: Solid, ray: Ray, fmt: Format) -> End:
-    """Return an exact endpoint as a row holds it."""
     at, rounded, value = place(t, solid, ray), enclose(t, fmt), t.rational()
     irrational = t.finite and value is None
     return End(
@@ -126,10 +124,7 @@ def golden_files(
 
 
 def write(
-    folder: Path,
-    families: tuple[Family, ...],
-    progress: Progress,
-    witnesses: Sequence[str] = USUAL,
+    folder: Path, families: tuple[Family, ...], progress: Progress, witnesses: Sequence[str] = USUAL
 ) -> dict[str, bytes]:
     """Write every golden file and the manifest; nothing is touched before all rows are made."""
     files = dict(golden_files(families, progress, witnesses))

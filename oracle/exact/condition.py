@@ -51,11 +51,9 @@ class Element:
     d: int
 
     def __add__(self, other: Element) -> Element:
-        """Return the sum."""
         return Element(self.a + other.a, self.b + other.b, self.d)
 
     def __mul__(self, other: Element | int) -> Element:
-        """Return the product, also with an integer."""
         if isinstance(other, int):
             return Element(self.a * other, self.b * other, self.d)
         return Element(
@@ -65,19 +63,15 @@ class Element:
         )
 
     def __neg__(self) -> Element:
-        """Return the negative."""
         return Element(-self.a, -self.b, self.d)
 
     def __sub__(self, other: Element) -> Element:
-        """Return the difference."""
         return self + -other
 
     def sign(self) -> int:
-        """Return the sign of the number."""
         return sign_1(self.a, self.b, self.d)
 
     def __abs__(self) -> Element:
-        """Return the absolute value."""
         return -self if self.sign() < 0 else self
 
     def __truediv__(self, other: Element) -> Surd:
@@ -92,7 +86,6 @@ Elements = tuple[Element, Element, Element]
 
 
 def inner(a: Elements, b: IntVector) -> Element:
-    """Return the scalar product with an integer vector."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
@@ -115,7 +108,6 @@ class At:
         return cls(grid, Element(value.numerator * up, 0, 0), value.denominator * down)
 
     def constant(self, n: int) -> Element:
-        """Return an integer as an element of the field."""
         return Element(n, 0, self.top.d)
 
     def from_point(self, x: IntVector) -> Elements:
@@ -142,7 +134,6 @@ class At:
 
 
 def _products(x: IntVector, gradient: Elements) -> Iterator[Element]:
-    """Yield |x_i dF/dx_i|."""
     return (abs(g * n) for n, g in zip(x, gradient, strict=True))
 
 
@@ -154,17 +145,9 @@ def _wall(leaf: InfiniteCylinder | Cylinder, at: At) -> Surd:
     square = dot(w, w)
     x = at.from_point(p)
     axial = inner(x, w)
-    rho = (
-        x[0] * square - axial * w[0],
-        x[1] * square - axial * w[1],
-        x[2] * square - axial * w[2],
-    )
+    rho = (x[0] * square - axial * w[0], x[1] * square - axial * w[1], x[2] * square - axial * w[2])
     bulk = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - at.constant(r * r * z * z)
-    dq = (
-        bulk * w[0] - axial * x[0],
-        bulk * w[1] - axial * x[1],
-        bulk * w[2] - axial * x[2],
-    )
+    dq = (bulk * w[0] - axial * x[0], bulk * w[1] - axial * x[1], bulk * w[2] - axial * x[2])
     dp = (-(rho[0] * z + dq[0]), -(rho[1] * z + dq[1]), -(rho[2] * z + dq[2]))
     dr = at.constant(r * r * square * z * z)
     return at.kappa(rho, iter((*_products(q, dq), *_products(p, dp), dr)))

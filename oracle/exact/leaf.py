@@ -53,26 +53,20 @@ class Quadric(NamedTuple):
 
     def roots(self, grid: Grid, disc: int) -> tuple[Surd, Surd]:
         """Return the two roots in order, a > 0 and disc >= 0; equal where disc = 0."""
-        return (
-            grid.surd(-self.b, -1, disc, self.a),
-            grid.surd(-self.b, 1, disc, self.a),
-        )
+        return (grid.surd(-self.b, -1, disc, self.a), grid.surd(-self.b, 1, disc, self.a))
 
 
 def half_space(solid: HalfSpace, grid: Grid) -> Plane:
-    """Return the condition of a half-space."""
     n = normal(solid.normal)
     return Plane(dot(minus(grid.u, grid.point(solid.point)), n), dot(grid.v, n), dot(n, n))
 
 
 def caps(solid: Slab | Cylinder, grid: Grid) -> tuple[Plane, Plane]:
-    """Return the conditions of the planes through p and through q."""
     y, w = _axis(solid, grid)
     return _caps(y, w, dot(w, w), grid)
 
 
 def wall(solid: InfiniteCylinder | Cylinder, grid: Grid) -> Quadric:
-    """Return the condition of the curved face, without its end planes."""
     y, w = _axis(solid, grid)
     return _wall(y, w, dot(w, w), grid.scalar(solid.radius), grid)
 
@@ -101,7 +95,6 @@ def _wall(y: IntVector, w: IntVector, square: int, r: int, grid: Grid) -> Quadri
 
 
 def ball(solid: Sphere, grid: Grid) -> Quadric:
-    """Return the condition of a sphere."""
     m, r = minus(grid.u, grid.point(solid.center)), grid.scalar(solid.radius)
     return Quadric(dot(grid.v, grid.v), dot(m, grid.v), dot(m, m) - r * r, 1)
 

@@ -20,7 +20,6 @@ Number: TypeAlias = "Surd | Fraction | float"
 
 
 def sign(n: int) -> int:
-    """Return -1, 0 or 1."""
     return (n > 0) - (n < 0)
 
 
@@ -91,31 +90,25 @@ class Surd:
         return 1 if number == -inf else self.compare(dyadic(number))
 
     def sign(self) -> int:
-        """Return the sign of the number."""
         return sign_1(self.x, self.y, self.d)
 
     def __eq__(self, other: object) -> bool:
-        """Decide equality as numbers."""
         found = self._against(other)
         return found if found is NotImplemented else found == 0
 
     def __lt__(self, other: Number) -> bool:
-        """Decide order as numbers."""
         found = self._against(other)
         return found if found is NotImplemented else found < 0
 
     def __le__(self, other: Number) -> bool:
-        """Decide order as numbers."""
         found = self._against(other)
         return found if found is NotImplemented else found <= 0
 
     def __gt__(self, other: Number) -> bool:
-        """Decide order as numbers."""
         found = self._against(other)
         return found if found is NotImplemented else found > 0
 
     def __ge__(self, other: Number) -> bool:
-        """Decide order as numbers."""
         found = self._against(other)
         return found if found is NotImplemented else found >= 0
 
@@ -127,7 +120,6 @@ class Surd:
         return hash((self.polynomial(), self.root())) if self.z else hash(inf)
 
     def __neg__(self) -> Surd:
-        """Return the negative of a finite number."""
         return Surd(-self.x, -self.y, self.d, self.z)
 
     def __float__(self) -> float:

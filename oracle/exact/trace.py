@@ -75,7 +75,6 @@ class Answer(NamedTuple):
 
     @property
     def rows(self) -> tuple[str, ...]:
-        """Return the names of the rows taken."""
         return tuple(name for decision in self.decisions for name in decision.names)
 
 
