@@ -14,10 +14,10 @@ Nothing else here computes geometry.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass, fields, replace
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, fields
 from numbers import Real
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from raycert.cases.vectors import minus
 
@@ -341,22 +341,6 @@ def axis(leaf: Leaf) -> Vector | None:
         own: Vector = getattr(leaf, directions[0])
         return own
     return minus(ends[1], ends[0]) if len(ends) > 1 else None
-
-
-def remade(
-    leaf: Leaf,
-    point: Callable[[Point], Sequence[float]],
-    length: Callable[[Length], float],
-    direction: Callable[[Direction], Sequence[float]] = lambda direction: direction,
-) -> Leaf:
-    """Return a leaf with its places, lengths and directions changed; refuses what is then none."""
-    changes: tuple[Callable[[Any], Any], ...] = (point, direction, length)
-    changed = {
-        name: change(getattr(leaf, name))
-        for names, change in zip(SHAPES[type(leaf)], changes, strict=True)
-        for name in names
-    }
-    return replace(leaf, **changed)
 
 
 def type_of(solid: Solid) -> str:

@@ -58,8 +58,7 @@ def bench(slug: str, text: str, shape: Node, flags: Flags, *paths: Path) -> tupl
         flagged = tuple(flag for word, flag in FLAG_OF.items() if word in name.split("-"))
         shots.append(Shot(
             f"{slug}-{name}", f"A ray meets {text}: {name.replace('-', ' ')}", shape, origin,
-            direction, path[3] if len(path) == 4 else None, flags=(*flags, *flagged),
-        ))  # fmt: skip
+            direction, path[3] if len(path) == 4 else None, flags=(*flags, *flagged)))  # fmt: skip
     return tuple(shots)
 
 
@@ -95,41 +94,32 @@ ONE, TWO, AT_2 = pair(1, 3), pair(1, 2), touch(2)
 DRUMS = (
     *_drums(
         "stack", "two cylinders stacked into one", any_of(drum(0, 4), drum(4, 8)),
-        ONE, ONE, ONE, ONE, ONE, ONE, ONE, pair(1, 2), AT_2, AT_2,
-    ),
+        ONE, ONE, ONE, ONE, ONE, ONE, ONE, pair(1, 2), AT_2, AT_2),
     *_drums(
         "shared-cap", "what two stacked cylinders share", all_of(drum(0, 4), drum(4, 8)),
-        MISS, ONE, MISS, AT_2, AT_2, AT_2, AT_2, touch(1), MISS, AT_2,
-    ),
+        MISS, ONE, MISS, AT_2, AT_2, AT_2, AT_2, touch(1), MISS, AT_2),
     *_drums(
         "stack-less", "a cylinder less the one on it", less(drum(0, 4), drum(4, 8)),
-        ONE, MISS, MISS, TWO, TWO, TWO, TWO, MISS, AT_2, MISS,
-    ),
+        ONE, MISS, MISS, TWO, TWO, TWO, TWO, MISS, AT_2, MISS),
     *_drums(
         "top-off", "a cylinder less its upper half", less(drum(0, 8), drum(4, 8)),
-        ONE, MISS, MISS, TWO, TWO, TWO, TWO, MISS, AT_2, MISS,
-    ),
+        ONE, MISS, MISS, TWO, TWO, TWO, TWO, MISS, AT_2, MISS),
     *_drums(
         "sliced", "a cylinder less a slab at its cap", less(drum(0, 8), ABOVE),
-        ONE, MISS, MISS, TWO, TWO, TWO, TWO, MISS, AT_2, MISS,
-    ),
+        ONE, MISS, MISS, TWO, TWO, TWO, TWO, MISS, AT_2, MISS),
     *_drums(
         "waist", "a cylinder less its middle", less(drum(0, 8), drum(3, 5)),
-        ONE, MISS, ONE, *(spans((1, "7/4"), ("9/4", 3)),) * 4, spans(("5/4", 2)), AT_2, MISS,
-    ),
+        ONE, MISS, ONE, *(spans((1, "7/4"), ("9/4", 3)),) * 4, spans(("5/4", 2)), AT_2, MISS),
     *_drums(
         "plug", "an infinite cylinder less a part of it", less(WELL, drum(4, 8)),
-        ONE, MISS, MISS, *(spans((0, 2), (3, None)),) * 3, TWO, pair(2, 3), AT_2, MISS,
-    ),
+        ONE, MISS, MISS, *(spans((0, 2), (3, None)),) * 3, TWO, pair(2, 3), AT_2, MISS),
     *_drums(
         "respelled", "a tube cut by a slab, less that cylinder",
-        less(all_of(WELL, ABOVE), drum(4, 8)), *(MISS,) * 10,
-    ),
+        less(all_of(WELL, ABOVE), drum(4, 8)), *(MISS,) * 10),
     *_drums(
         "turned", "a cylinder and itself turned upside down",
         all_of(drum(0, 8), rod((0, 0, 8), (0, 0, 0), 4)),
-        ONE, ONE, ONE, ONE, ONE, ONE, ONE, pair(1, 2), AT_2, AT_2,
-    ),
+        ONE, ONE, ONE, ONE, ONE, ONE, ONE, pair(1, 2), AT_2, AT_2),
 )  # fmt: skip
 
 BALLS = (ball(4, -4), ball(4, 4))
@@ -155,8 +145,7 @@ def _pairs(
             ("up-the-touch", (0, 0, -8), (0, 0, 4), up),
             ("start-at-the-touch-out", (0, 0, 0), (0, 4, 0)),
             ("start-at-the-touch-in", (0, 0, 0), (-4, 0, 0)),
-            ("start-at-the-touch-rest", (0, 0, 0), (0, 0, 0)),
-        )  # fmt: skip
+            ("start-at-the-touch-rest", (0, 0, 0), (0, 0, 0)))  # fmt: skip
 
 
 CAPPED = rod((0, 0, 0), (8, 0, 0), 4)
@@ -175,20 +164,16 @@ POINT = ((-4, 0, 3), (4, 0, -3))
 ON_A_PLANE = (
     *bench("or", "a sphere on a plane, united", any_of(BUBBLE, FLOOR), TOUCHING,
         ("down", *DOWN, pair(1, None)), ("in-the-plane", *FLAT, ALWAYS),
-        ("to-the-point", *POINT, None),
-    ),
+        ("to-the-point", *POINT, None)),
     *bench("and", "a sphere on a plane, intersected", all_of(BUBBLE, FLOOR), TOUCHING,
         ("down", *DOWN, touch(3)), ("in-the-plane", *FLAT, touch(2)),
-        ("to-the-point", *POINT, touch(1)),
-    ),
+        ("to-the-point", *POINT, touch(1))),
     *bench("less", "a sphere less the plane below", less(BUBBLE, FLOOR), TOUCHING,
         ("down", *DOWN, pair(1, 3)), ("in-the-plane", *FLAT, MISS),
-        ("to-the-point", *POINT, None),
-    ),
+        ("to-the-point", *POINT, None)),
     *bench("floor-less", "the plane less a sphere on it", less(FLOOR, BUBBLE), TOUCHING,
         ("down", *DOWN, pair(3, None)), ("in-the-plane", *FLAT, ALWAYS),
-        ("to-the-point", *POINT, pair(1, None)),
-    ),
+        ("to-the-point", *POINT, pair(1, None))),
 )  # fmt: skip
 
 SLOT = pipe((0, 0, 0), (0, 0, 8), 4)
@@ -199,22 +184,18 @@ IN_A_TUBE = (
         ("across", *FLAT, MISS), ("through-the-circle", *CIRCLE, pair(2, 3)),
         ("along", (0, 0, -12), (0, 0, 4), spans((0, 2), (4, None))),
         ("in-the-wall", (4, 0, -12), (0, 0, 4), ALWAYS),
-        ("tangent", (-8, 4, 0), (4, 0, 0), MISS),
-    ),
+        ("tangent", (-8, 4, 0), (4, 0, 0), MISS)),
     *bench("both", "a sphere in a tube, intersected", all_of(SLOT, MARBLE), SHARED,
         ("across", *FLAT, ONE), ("through-the-circle", *CIRCLE, TWO),
         ("in-the-wall", (4, 0, -12), (0, 0, 4), touch(3)),
-        ("tangent", (-8, 4, 0), (4, 0, 0), AT_2),
-    ),
+        ("tangent", (-8, 4, 0), (4, 0, 0), AT_2)),
     *bench("either", "a sphere in a tube, united", any_of(SLOT, MARBLE), SHARED,
         ("across", *FLAT, ONE), ("through-the-circle", *CIRCLE, ONE),
         ("in-the-wall", (4, 0, -12), (0, 0, 4), ALWAYS),
-        ("tangent", (-8, 4, 0), (4, 0, 0), AT_2),
-    ),
+        ("tangent", (-8, 4, 0), (4, 0, 0), AT_2)),
     *bench("poke", "a sphere less the tube around it", less(MARBLE, SLOT), SHARED,
         ("across", *FLAT, MISS), ("through-the-circle", *CIRCLE, MISS),
-        ("tangent", (-8, 4, 0), (4, 0, 0), MISS),
-    ),
+        ("tangent", (-8, 4, 0), (4, 0, 0), MISS)),
 )  # fmt: skip
 
 HOLLOW = ("hollow",)
@@ -261,8 +242,7 @@ TUBES = (
         *_walls(8)[:2],
         ("down-the-axis", (0, 0, 32), (0, 0, -4), pair(7, 8)),
         ("across-the-bottom", (-8, 0, 2), (1, 0, 0), pair(3, 13)),
-        ("in-the-plane-of-the-bottom", (-8, 0, 4), (1, 0, 0), spans((3, 5), (11, 13))),
-    ),
+        ("in-the-plane-of-the-bottom", (-8, 0, 4), (1, 0, 0), spans((3, 5), (11, 13)))),
 )  # fmt: skip
 
 SHELL = less(ball(5), ball(3))
@@ -274,17 +254,14 @@ SHELLS = (
         ("down-the-axis", (0, 0, 8), (0, 0, -1), pair(11, 13)),
         ("up-the-axis", (0, 0, -8), (0, 0, 1), pair(3, 5)),
         ("up-the-side", (4, 0, -8), (0, 0, 1), pair(5, 8)),
-        ("up-the-inner-tangent", (3, 0, -8), (0, 0, 2), pair(2, 4)),
-    ),
+        ("up-the-inner-tangent", (3, 0, -8), (0, 0, 2), pair(2, 4))),
     *bench("surd-shell", "a shell whose ends are surds", less(ball(4), ball(2)), HOLLOW,
         ("beside", (-8, 1, 0), (4, 0, 0)), ("near-the-hole", (-8, 0, 1), (2, 1, 0)),
-        ("inside-out", (1, 0, 1), (1, 2, 3)), ("missing-the-hole", (-8, 3, 0), (4, 0, 0)),
-    ),
+        ("inside-out", (1, 0, 1), (1, 2, 3)), ("missing-the-hole", (-8, 3, 0), (4, 0, 0))),
     *bench("wide-shell", "a shell of radii 25 and 17", less(ball(25), ball(17)), HOLLOW,
         ("at-15", (-32, 15, 0), (4, 0, 0), spans((3, 6), (10, 13))),
         ("at-8", (-32, 8, 0), (1, 0, 0)),
-        ("tangent-to-the-hole", (-32, 17, 0), (4, 0, 0)),
-    ),
+        ("tangent-to-the-hole", (-32, 17, 0), (4, 0, 0))),
 )  # fmt: skip
 
 
@@ -303,8 +280,7 @@ def _nest(slug: str, text: str, outer: Shape, inner: Shape) -> Iterable[Shot]:
             f"{slug}-{name}", f"{text}, {how}", shape, (),
             ("across", (-16, 0, 0), (4, 0, 0), known),
             ("from-the-middle", (0, 0, 0), (4, 0, 0)),
-            ("aside", (-16, 1, 2), (4, 1, 0)),
-        )  # fmt: skip
+            ("aside", (-16, 1, 2), (4, 1, 0)))  # fmt: skip
 
 
 NESTS = (
@@ -313,12 +289,10 @@ NESTS = (
     *_nest("ball-in-rod", "a sphere in a cylinder", rod((0, 0, -8), (0, 0, 8), 8), ball(4)),
     *_nest(
         "rods", "a cylinder in a cylinder",
-        rod((0, 0, -8), (0, 0, 8), 8), rod((-4, 0, 0), (4, 0, 0), 2),
-    ),
+        rod((0, 0, -8), (0, 0, 8), 8), rod((-4, 0, 0), (4, 0, 0), 2)),
     *_nest(
         "slabs", "a cylinder in a slab", layer((-8, 0, 0), (8, 0, 0)),
-        rod((0, 0, -4), (0, 0, 4), 4),
-    ),
+        rod((0, 0, -4), (0, 0, 4), 4)),
 )  # fmt: skip
 
 INNER = ball(4, 4)
@@ -327,18 +301,15 @@ KISSES = (
         ("through", (-16, 0, 0), (4, 0, 0), pair(2, 4)),
         ("tangent-at-the-touch", (8, -8, 0), (0, 4, 0), MISS),
         ("start-at-the-touch", (8, 0, 0), (-4, 0, 0), pair(2, 4)),
-        ("start-at-the-touch-out", (8, 0, 0), (4, 0, 0), MISS),
-    ),
+        ("start-at-the-touch-out", (8, 0, 0), (4, 0, 0), MISS)),
     *bench("and", "a sphere and one touching it inside", all_of(ball(8), INNER), TOUCHING,
         ("through", (-16, 0, 0), (4, 0, 0), pair(4, 6)),
         ("tangent-at-the-touch", (8, -8, 0), (0, 4, 0), touch(2)),
         ("start-at-the-touch", (8, 0, 0), (-4, 0, 0), pair(0, 2)),
-        ("start-at-the-touch-out", (8, 0, 0), (4, 0, 0), touch(0)),
-    ),
+        ("start-at-the-touch-out", (8, 0, 0), (4, 0, 0), touch(0))),
     *bench("back", "a sphere less one around it that touches", less(INNER, ball(8)), TOUCHING,
         ("through", (-16, 0, 0), (4, 0, 0), MISS),
-        ("tangent-at-the-touch", (8, -8, 0), (0, 4, 0), MISS),
-    ),
+        ("tangent-at-the-touch", (8, -8, 0), (0, 4, 0), MISS)),
 )  # fmt: skip
 BOTH = drawn(1, 1)
 
@@ -382,11 +353,9 @@ def _rows() -> Iterator[Shot]:
                 if count > 6 and (slug == "backwards" or way == "caps"):
                     continue
                 name = f"{slug}-{count}-{way}"
-                yield Shot(
-                    name, f"A ray meets {count} {text}, each a {way}", shape, START, AHEAD, known,
-                    frames_for(name, 1, 1)[count % 2],
-                    ("touching-parts",) if slug == "chain" else MANY,
-                )  # fmt: skip
+                yield Shot(name, f"A ray meets {count} {text}, each a {way}", shape, START, AHEAD,
+                           known, frames_for(name, 1, 1)[count % 2],
+                           ("touching-parts",) if slug == "chain" else MANY)  # fmt: skip
 
 
 def _onions() -> Iterator[Shot]:
@@ -398,11 +367,9 @@ def _onions() -> Iterator[Shot]:
             for one in layers[-2::-1]:
                 shape = less(one, shape)
             name, ends = f"{count}-{way}", [*range(2, 2 + count), *range(23 - count, 23)]
-            yield Shot(
-                f"onion-{name}",
-                f"A ray meets {count} nested parts, each less the next, {way} by {way}",
-                shape, START, AHEAD, _between(ends), one_frame(name),
-            )  # fmt: skip
+            yield Shot(f"onion-{name}",
+                       f"A ray meets {count} nested parts, each less the next, {way} by {way}",
+                       shape, START, AHEAD, _between(ends), one_frame(name))  # fmt: skip
 
 
 UPPER, LOWER = below((0, 0, 0), (0, 0, -2)), below((0, 0, 0), (0, 0, 2))
@@ -418,24 +385,19 @@ RISE, LEVEL, SLOPE = ((0, 1, -8), (0, 0, 4)), ((-8, 1, 0), (4, 0, 0)), ((-8, 0, 
 ENDLESS = (
     *bench("everything", "two half-spaces that cover all", any_of(UPPER, LOWER), (),
         ("rising", *RISE, ALWAYS), ("in-the-shared-plane", *LEVEL, ALWAYS),
-        ("slanted", *SLOPE, ALWAYS), ("rest-on-the-plane", (1, 2, 0), (0, 0, 0), ALWAYS),
-    ),
+        ("slanted", *SLOPE, ALWAYS), ("rest-on-the-plane", (1, 2, 0), (0, 0, 0), ALWAYS)),
     *bench("plane", "what two opposite half-spaces share", all_of(UPPER, LOWER), (),
         ("rising", *RISE, touch(2)), ("in-the-shared-plane", *LEVEL, ALWAYS),
         ("slanted", *SLOPE, touch(2)), ("start-and-leave", (1, 2, 0), (1, 0, 1), touch(0)),
-        ("rest-beside-the-plane", (1, 2, 1), (0, 0, 0), MISS),
-    ),
+        ("rest-beside-the-plane", (1, 2, 1), (0, 0, 0), MISS)),
     *bench("complement", "a half-space less its opposite", less(UPPER, LOWER), (),
         ("rising", *RISE, pair(2, None)), ("in-the-shared-plane", *LEVEL, MISS),
-        ("falling", (0, 1, 8), (0, 0, -4), pair(0, 2)),
-    ),
+        ("falling", (0, 1, 8), (0, 0, -4), pair(0, 2))),
     *bench("apart", "two half-spaces apart", any_of(OVER, UNDER), (),
         ("rising", *RISE, spans((0, 1), (3, None))), ("level-between", *LEVEL, MISS),
-        ("slanted", *SLOPE, spans((0, 1), (3, None))),
-    ),
+        ("slanted", *SLOPE, spans((0, 1), (3, None)))),
     *bench("nothing", "half-spaces with nothing in common", all_of(OVER, UNDER), (),
-        ("rising", *RISE, MISS), ("slanted", *SLOPE, MISS),
-    ),
+        ("rising", *RISE, MISS), ("slanted", *SLOPE, MISS)),
     *bench("cube", "a cube of six half-spaces", CUBE, (),
         ("through", *RISE, pair(1, 3)), ("through-corners", (-8, -8, -8), (4, 4, 4), pair(1, 3)),
         ("in-a-face-plane", (-8, 0, 4), (4, 0, 0), pair(1, 3)),
@@ -443,28 +405,24 @@ ENDLESS = (
         ("past-a-corner", (-8, 4, 0), (4, 4, 0), MISS),
         ("touching-an-edge", (-8, 0, 0), (4, 4, 0), touch(1)),
         ("touching-a-corner", (-8, 0, 2), (4, 4, 2), touch(1)),
-        ("inside", (0, 0, 0), (1, 2, 4), pair(0, 1)),
-    ),
+        ("inside", (0, 0, 0), (1, 2, 4), pair(0, 1))),
     *bench("wedge", "a wedge of two half-spaces", WEDGE, (),
         ("in", (8, 0, -4), (-4, 0, 0), pair(2, None)),
         ("touching-the-edge", (-4, 0, 4), (4, 0, -4), touch(1)),
         ("along-the-edge", (0, -4, 0), (0, 4, 0), ALWAYS),
-        ("down", (-4, 0, 8), (0, 0, -4), pair(2, None)),
-    ),
+        ("down", (-4, 0, 8), (0, 0, -4), pair(2, None))),
     *bench("all-but", "everything less a sphere", ALL_BUT, (),
         ("through", *RISE, None), ("level", (-8, 0, 0), (4, 0, 0), spans((0, 1), (3, None))),
         ("inside", (0, 0, 0), (0, 4, 0), pair(1, None)), ("tangent", (-8, 4, 0), (4, 0, 0), ALWAYS),
     ),
     *bench("cross", "two crossing tubes", CROSS, (),
         ("through-both", (-8, 0, 0), (4, 0, 0), pair(1, 3)), ("along-one", *RISE, ALWAYS),
-        ("in-both-walls", (4, 0, -8), (0, 0, 4), ALWAYS), ("skew", (-8, 8, 8), (4, -4, -4), None),
-    ),
+        ("in-both-walls", (4, 0, -8), (0, 0, 4), ALWAYS), ("skew", (-8, 8, 8), (4, -4, -4), None)),
     *bench("tunnel", "a slab less a tube", TUNNEL, SHARED,
         ("level", (-8, 0, 0), (4, 0, 0), spans((0, 1), (3, None))),
         ("in-the-slab-face", (-8, 0, 4), (4, 0, 0), ALWAYS),
         ("down", (0, 0, 8), (0, 0, -4), MISS),
-        ("down-the-tangent", (4, 0, 8), (0, 0, -4), pair(1, 3)),
-    ),
+        ("down-the-tangent", (4, 0, 8), (0, 0, -4), pair(1, 3))),
 )  # fmt: skip
 
 # Starts on z = 4, in the middle of a stack of cylinders, and at its wall: for each tree the list.
@@ -493,10 +451,9 @@ def _on_seams() -> Iterator[Shot]:
     for slug, origin, direction, lists in SEAMS:
         flag = "start-on-surface" if any(direction) else "zero-direction"
         for (name, text, shape), known in zip(STACKS, lists, strict=True):
-            yield Shot(
-                f"{name}-{slug}", f"A ray starts at the seam, {slug.replace('-', ' ')}: {text}",
-                shape, origin, direction, known, flags=(flag,),
-            )  # fmt: skip
+            yield Shot(f"{name}-{slug}",
+                       f"A ray starts at the seam, {slug.replace('-', ' ')}: {text}", shape, origin,
+                       direction, known, flags=(flag,))  # fmt: skip
 
 
 def _near_faces(fmt: Format) -> Iterator[Shot]:

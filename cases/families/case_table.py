@@ -196,11 +196,10 @@ def _cell(one: Motion, two: Motion, cell: tuple[str, ...]) -> Shot:
     elif two.speed == 0:
         flags.append("perpendicular")
     straight = one.speed == 0 or two.speed == 0
-    return Shot(
-        "-".join(words), f"{_sentence(one, two)}{_order(cell)}",
-        cylinder(one.size, two.size), (one.at, one.y, two.at), (one.speed, 0, two.speed),
-        _meet(one.span, two.span), drawn(2 if straight else 1, 1), tuple(flags),
-    )  # fmt: skip
+    return Shot("-".join(words), f"{_sentence(one, two)}{_order(cell)}",
+                cylinder(one.size, two.size), (one.at, one.y, two.at), (one.speed, 0, two.speed),
+                _meet(one.span, two.span), drawn(2 if straight else 1, 1),
+                tuple(flags))  # fmt: skip
 
 
 def _sentence(one: Motion, two: Motion) -> str:
@@ -246,21 +245,17 @@ def _tube_rows(_: Format) -> Iterator[Shot]:
             if one.speed == vz == 0:
                 continue
             way = ("parallel",) if one.speed == 0 else () if vz else ("perpendicular",)
-            yield Shot(
-                f"{name}-{word}", f"A ray is {one.text}{when}, {text} a part along the axis",
-                tube(one.size), (one.at, one.y, 2), (one.speed, 0, vz),
-                _meet(one.span), flags=(*one.flags, *way),
-            )  # fmt: skip
+            yield Shot(f"{name}-{word}", f"A ray is {one.text}{when}, {text} a part along the axis",
+                       tube(one.size), (one.at, one.y, 2), (one.speed, 0, vz),
+                       _meet(one.span), flags=(*one.flags, *way))  # fmt: skip
 
 
 def _sphere_rows(_: Format) -> Iterator[Shot]:
     for slug, (t1, t2), one in _crossings():
         text = f"A ray meets a sphere {one.text.replace('axis', 'centre')}"
-        yield Shot(
-            slug, f"{text}, at t = {t1} and t = {t2}", ball(one.size), (one.at, one.y, 0),
-            (one.speed, 0, 0), _meet(one.span), _moved(2, 1),
-            _start_flags(t1, t2),
-        )  # fmt: skip
+        yield Shot(slug, f"{text}, at t = {t1} and t = {t2}", ball(one.size), (one.at, one.y, 0),
+                   (one.speed, 0, 0), _meet(one.span), _moved(2, 1),
+                   _start_flags(t1, t2))  # fmt: skip
     for shot in SPHERE_MISSES:
         yield shot.named("miss-{}", "A ray {}").but(frame=_moved(1, 2)(shot.slug))
     for shot in SPHERE_RESTS:
@@ -339,12 +334,10 @@ def _plane_rows(height: int, places: Places, moves: Places) -> Iterator[Shot]:
                 vx = 4 if move == "along" and not vx else vx
                 vy = 2 if move == "along" and slant == "slanted" else 0
                 on = ("start-on-surface",) if z in (0, height) else ()
-                yield Shot(
-                    f"{place}-{move}-{slant}", f"A ray starts {where} and goes {way}, {how}",
-                    slab(height) if height else half_space(normal=2), (1, -3, z), (vx, vy, vz),
-                    between(z, vz, 0, height) if height else _below(z, vz),
-                    flags=(*on, "cap-plane") if on and not vz else on,
-                )  # fmt: skip
+                yield Shot(f"{place}-{move}-{slant}", f"A ray starts {where} and goes {way}, {how}",
+                           slab(height) if height else half_space(normal=2), (1, -3, z),
+                           (vx, vy, vz), between(z, vz, 0, height) if height else _below(z, vz),
+                           flags=(*on, "cap-plane") if on and not vz else on)  # fmt: skip
 
 
 def _near_parallel(fmt: Format) -> Iterator[Shot]:
@@ -356,10 +349,9 @@ def _near_parallel(fmt: Format) -> Iterator[Shot]:
             (slab(4), "above-sinking", "sinks through", 6, sink, between(6, sink, 0, 4), UPRIGHT),
             (slab(4), "inside-rising", "rises out of", 1, rise, between(1, rise, 0, 4), SEVENTHS),
         ):
-            yield Shot(
-                f"{body.word}-{slug}-{name}", f"A ray {what} {body.noun} with a slope of {name}",
-                body, (2, 1, start), (1, 0, vz), known, frame,
-            )  # fmt: skip
+            yield Shot(f"{body.word}-{slug}-{name}",
+                       f"A ray {what} {body.noun} with a slope of {name}", body, (2, 1, start),
+                       (1, 0, vz), known, frame)  # fmt: skip
 
 
 FAMILIES = (

@@ -100,12 +100,11 @@ def _from_afar(k: int, aims: Iterable[Shot], text: str) -> Iterator[Shot]:
 
 def _deep(_: Format, k: int) -> Iterator[Shot]:
     yield from _from_afar(k, DEEP, "goes {}")
-    yield Shot(
-        f"segment-1e{k}",
-        f"A direction 1e{k} radii long reaches from the start to the axis at t = 1",
-        DRUM, plus(CENTRE, (4, 0, 3), -ten(k)), times(ten(k), (4, 0, 3)),
-        pair(1 - QUARTER / ten(k), 1 + QUARTER / ten(k)), flags=("direction-scale",),
-    )  # fmt: skip
+    yield Shot(f"segment-1e{k}",
+               f"A direction 1e{k} radii long reaches from the start to the axis at t = 1", DRUM,
+               plus(CENTRE, (4, 0, 3), -ten(k)), times(ten(k), (4, 0, 3)),
+               pair(1 - QUARTER / ten(k), 1 + QUARTER / ten(k)),
+               flags=("direction-scale",))  # fmt: skip
 
 
 def _off_axis(fmt: Format, k: int) -> Iterator[Shot]:
@@ -130,24 +129,18 @@ def _grazing(fmt: Format, k: int) -> Iterator[Shot]:
         (DRUM, "just-outside", f"2^-{reach} outside tangency", outside, MISS, "near-tangent"),
     )
     for body, name, how, y, known, flag in lines:
-        yield Shot(
-            f"{body.word}-{name}-1e{k}", f"{text}is {how} to {body.noun}",
-            body, (-ten(k), y, 2), (1, 0, 0), known, flags=(flag,),
-        )  # fmt: skip
-    yield Shot(
-        f"cap-1e{k}", f"{text}comes in the plane of the cap",
-        DRUM, (0, ten(k), 4), (0, -1, 0), pair(ten(k) - 1, ten(k) + 1), flags=("cap-plane",),
-    )  # fmt: skip
+        yield Shot(f"{body.word}-{name}-1e{k}", f"{text}is {how} to {body.noun}",
+                   body, (-ten(k), y, 2), (1, 0, 0), known, flags=(flag,))  # fmt: skip
+    yield Shot(f"cap-1e{k}", f"{text}comes in the plane of the cap", DRUM, (0, ten(k), 4),
+               (0, -1, 0), pair(ten(k) - 1, ten(k) + 1), flags=("cap-plane",))  # fmt: skip
 
 
 def _spheres(_: Format, k: int) -> Iterator[Shot]:
     yield from _from_afar(k, SPHERES, "meets a sphere {}")
     reach = 1 / (5 * ten(k))
-    yield Shot(
-        f"segment-1e{k}", f"A direction 1e{k} radii long reaches the centre at t = 1",
-        ball(5), times(-5 * ten(k), (3, 0, 4)), times(5 * ten(k), (3, 0, 4)),
-        pair(1 - reach, 1 + reach), flags=("direction-scale",),
-    )  # fmt: skip
+    yield Shot(f"segment-1e{k}", f"A direction 1e{k} radii long reaches the centre at t = 1",
+               ball(5), times(-5 * ten(k), (3, 0, 4)), times(5 * ten(k), (3, 0, 4)),
+               pair(1 - reach, 1 + reach), flags=("direction-scale",))  # fmt: skip
 
 
 def _grazing_spheres(fmt: Format, k: int) -> Iterator[Shot]:
@@ -161,15 +154,11 @@ def _grazing_spheres(fmt: Format, k: int) -> Iterator[Shot]:
         ("wide", "a quarter radius wide", 1 + QUARTER, MISS, "far"),
     )
     for name, how, y, known, flag in lines:
-        yield Shot(
-            f"{name}-1e{k}", text + how, ball(1), (-ten(k), y, 0), (1, 0, 0), known,
-            SEVENTHS if name == "wide" else UPRIGHT, (flag,),
-        )  # fmt: skip
-    yield Shot(
-        f"tangent-skew-1e{k}", f"From 1e{k} steps away, a ray touches a sphere at (1, 2, 2)",
-        ball(3), plus((1, 2, 2), (2, 1, -2), -ten(k)), (2, 1, -2), touch(ten(k)),
-        flags=("tangent",),
-    )  # fmt: skip
+        yield Shot(f"{name}-1e{k}", text + how, ball(1), (-ten(k), y, 0), (1, 0, 0), known,
+                   SEVENTHS if name == "wide" else UPRIGHT, (flag,))  # fmt: skip
+    yield Shot(f"tangent-skew-1e{k}", f"From 1e{k} steps away, a ray touches a sphere at (1, 2, 2)",
+               ball(3), plus((1, 2, 2), (2, 1, -2), -ten(k)), (2, 1, -2), touch(ten(k)),
+               flags=("tangent",))  # fmt: skip
 
 
 def _large(_: Format, k: int) -> tuple[Shot, ...]:

@@ -177,10 +177,9 @@ def held(
                 slug = f"{rule.slug}-{style}" + (f"-plus-{shift}" if shift else "")
                 shape = build(rule.term, ways, Dice(slug))
                 text = f"A ray meets {rule.text or rule.term}{' moved by 1' if shift else ''}"
-                yield Shot(
-                    slug, f"{text}, by {words}", moved(shape, (SPEED * shift, 0, 0)), START, AHEAD,
-                    later(rule.known, shift), drawn(0, 1) if shift else drawn(1, 0), rule.flags,
-                )  # fmt: skip
+                yield Shot(slug, f"{text}, by {words}", moved(shape, (SPEED * shift, 0, 0)), START,
+                           AHEAD, later(rule.known, shift), drawn(0, 1) if shift else drawn(1, 0),
+                           rule.flags)  # fmt: skip
 
 
 CLOSURE = ("closure",)
@@ -356,10 +355,9 @@ def _identical() -> Iterator[Shot]:
             ("alone", "A as a union of one", any_of(one), whole),
         )
         for slug, text, shape, known in forms:
-            yield Shot(
-                f"{name}-{slug}", f"A ray meets {text}, A being {ARTICLES[name]}", shape, START,
-                AHEAD, known, one_frame, SHARED if slug != "alone" else (),
-            )  # fmt: skip
+            yield Shot(f"{name}-{slug}", f"A ray meets {text}, A being {ARTICLES[name]}", shape,
+                       START, AHEAD, known, one_frame,
+                       SHARED if slug != "alone" else ())  # fmt: skip
 
 
 ORDERS = (
@@ -380,12 +378,10 @@ def _orders() -> Iterator[Shot]:
         for order in permutations(range(3)):
             turn = "".join("abc"[i] for i in order)
             for kind, make in MAKE.items():
-                yield Shot(
-                    f"{kind}-{name}-{turn}",
-                    f"The {kind} of three {text} parts in the order {turn}, by {words}",
-                    make(*(parts[i] for i in order)), START, AHEAD, lists.get(kind),
-                    SEVENTHS if style == "mixed" else UPRIGHT,
-                )  # fmt: skip
+                yield Shot(f"{kind}-{name}-{turn}",
+                           f"The {kind} of three {text} parts in the order {turn}, by {words}",
+                           make(*(parts[i] for i in order)), START, AHEAD, lists.get(kind),
+                           SEVENTHS if style == "mixed" else UPRIGHT)  # fmt: skip
 
 
 def _rules(
@@ -422,11 +418,10 @@ def _equal() -> Iterator[Shot]:
                 for name, make in MAKE.items():
                     slug = f"{kind}-{name}-{one}-{other}"
                     aligned = int(kind == "surds" or len(slug) % 2)
-                    yield Shot(
-                        slug, f"Both ends are equal {kind} in the {name} of {one} and {other}",
-                        make(first, second), ALONG, AHEAD, lists.get(name),
-                        drawn(aligned, 1 - aligned),
-                    )  # fmt: skip
+                    yield Shot(slug,
+                               f"Both ends are equal {kind} in the {name} of {one} and {other}",
+                               make(first, second), ALONG, AHEAD, lists.get(name),
+                               drawn(aligned, 1 - aligned))  # fmt: skip
     for shot in CROSSINGS:
         text = "Two surfaces are crossed at one point: {}"
         yield shot.but(text=text.format(shot.text), frame=drawn(1, 1))
@@ -536,11 +531,10 @@ def _near(_: Format, k: int) -> Iterator[Shot]:
     overlapping = (pair(1, 5 - gap), pair(3 - gap, 3), pair(1, 3 - gap))
     for side, shift, lists in (("apart", gap, apart), ("overlapping", -gap, overlapping)):
         for (name, make), known in zip(MAKE.items(), lists, strict=True):
-            yield Shot(
-                f"{name}-{side}-{power(-k)}",
-                f"A ray meets the {name} of two spheres 2^-{k} {side}",
-                make(ball(1, -1), ball(1, 1 + shift)), (-3, 0, 0), (1, 0, 0), known,
-            )  # fmt: skip
+            yield Shot(f"{name}-{side}-{power(-k)}",
+                       f"A ray meets the {name} of two spheres 2^-{k} {side}",
+                       make(ball(1, -1), ball(1, 1 + shift)), (-3, 0, 0), (1, 0, 0),
+                       known)  # fmt: skip
 
 
 def _twelfth_gaps(fmt: Format) -> range:

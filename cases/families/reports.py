@@ -68,10 +68,9 @@ class Report:
 
     def shot(self) -> Shot:
         whose = f"{self.ours} chosen here" if self.ours else "numbers as given"
-        return Shot(
-            self.slug, f"{self.why}; {whose}", self.shape, self.origin, self.direction, self.known,
-            self.frame, ("reported", *self.flags.split()), self.tier, self.source,
-        )  # fmt: skip
+        return Shot(self.slug, f"{self.why}; {whose}", self.shape, self.origin, self.direction,
+                    self.known, self.frame, ("reported", *self.flags.split()), self.tier,
+                    self.source)  # fmt: skip
 
 
 def shots(*tables: Iterable[Report]) -> Callable[[Format], Iterator[Shot]]:

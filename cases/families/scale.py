@@ -153,12 +153,10 @@ def _endpoints(fmt: Format) -> Iterator[Shot]:
         text = "Endpoints lie below the smallest number: {}"
         yield near.named("{}-endpoints-vanish", text, "underflow", "direction-scale")
     distance, slow = two(top - 4), two(4 - top)
-    yield Shot(
-        "plane-far-slow",
-        "The largest distance at the smallest speed ends beyond the largest number",
-        half_space(0), (0, 0, -distance), (0, 0, slow), pair(0, distance / slow),
-        flags=("overflow",),
-    )  # fmt: skip
+    yield Shot("plane-far-slow",
+               "The largest distance at the smallest speed ends beyond the largest number",
+               half_space(0), (0, 0, -distance), (0, 0, slow), pair(0, distance / slow),
+               flags=("overflow",))  # fmt: skip
 
 
 def _subnormal(fmt: Format, shots: tuple[Shot, ...] = LEAVES) -> Iterator[Shot]:
@@ -214,10 +212,8 @@ def _ends(
     """Return the ray along x at a height past the middle of a cylinder or sphere."""
     noun, z = (body.noun, 1) if isinstance(body, Body) else ("a sphere", 0)
     known = None if height else pair(START - body.radius, START + body.radius)
-    return Shot(
-        slug, f"Both ends of {noun} are {text}", body, (-START, height, z), (1, 0, 0), known,
-        frame, ("hard-to-round",) if height else ("tie",),
-    )  # fmt: skip
+    return Shot(slug, f"Both ends of {noun} are {text}", body, (-START, height, z), (1, 0, 0),
+                known, frame, ("hard-to-round",) if height else ("tie",))  # fmt: skip
 
 
 def _ties(fmt: Format) -> Iterator[Shot]:
@@ -247,11 +243,10 @@ def _skew_ties(fmt: Format, count: int, word: str) -> Iterator[Shot]:
     """Yield chords at 3/5 of the radius 5 (1 + count 2^(5 - precision)): ties in [32, 64)."""
     unit = 1 + count * two(5 - fmt.precision)
     for body in _bodies(5 * unit):
-        yield Shot(
-            f"{body.word}-{word}-skew",
-            f"The ends of {body.noun} are {word} ties by a Pythagorean chord",
-            body, (-4 * 40, 3 * unit, 1), (4, 0, 0), pair(40 - unit, 40 + unit), flags=("tie",),
-        )  # fmt: skip
+        yield Shot(f"{body.word}-{word}-skew",
+                   f"The ends of {body.noun} are {word} ties by a Pythagorean chord", body,
+                   (-4 * 40, 3 * unit, 1), (4, 0, 0), pair(40 - unit, 40 + unit),
+                   flags=("tie",))  # fmt: skip
 
 
 def _hard(fmt: Format, j: int) -> Iterator[Shot]:
@@ -262,11 +257,10 @@ def _hard(fmt: Format, j: int) -> Iterator[Shot]:
     yield from _other_side(fmt, j)
     level = -1 - half_unit(fmt)
     for shift, side in ((two(-j), "above"), (-two(-j), "below")):
-        yield Shot(
-            f"half-space-{side}-{power(-j)}", f"The end of a half-space is 2^-{j} {side} a tie",
-            Body("half_space", (0, 0, START), (0, -shift, START + 1)), (0, 1, level), (0, 0, 1),
-            pair(0, START - level + shift), flags=("hard-to-round",),
-        )  # fmt: skip
+        yield Shot(f"half-space-{side}-{power(-j)}",
+                   f"The end of a half-space is 2^-{j} {side} a tie",
+                   Body("half_space", (0, 0, START), (0, -shift, START + 1)), (0, 1, level),
+                   (0, 0, 1), pair(0, START - level + shift), flags=("hard-to-round",))  # fmt: skip
 
 
 def _other_side(fmt: Format, j: int) -> Iterator[Shot]:
@@ -279,11 +273,10 @@ def _other_side(fmt: Format, j: int) -> Iterator[Shot]:
         unit = 1 + count * two(5 - fmt.precision)
         axis: tuple[Exact, Exact] = ((0, 3 * unit, 0), (0, 3 * unit, 2))
         for body in (pipe(*axis, 5 * unit), rod(*axis, 5 * unit)):
-            yield Shot(
-                f"{body.word}-{word}-wide-{power(-2 * j)}",
-                f"Both ends of {body.noun} are 3/4 of 2^-{2 * j} outside the {word} tie",
-                body, (-40, two(-2 * j), 1), (1, 0, 0), flags=("hard-to-round",),
-            )  # fmt: skip
+            yield Shot(f"{body.word}-{word}-wide-{power(-2 * j)}",
+                       f"Both ends of {body.noun} are 3/4 of 2^-{2 * j} outside the {word} tie",
+                       body, (-40, two(-2 * j), 1), (1, 0, 0),
+                       flags=("hard-to-round",))  # fmt: skip
 
 
 def _range_ties(fmt: Format) -> tuple[Shot, ...]:

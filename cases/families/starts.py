@@ -251,10 +251,8 @@ def _threads(fmt: Format) -> Iterator[Shot]:
                        frame=drawn(1, 1))  # fmt: skip
     for k in decades(fmt):
         tiny, text = near(fmt, ten(-3 * k)), f"A ray crosses a cylinder of radius 1e-{3 * k}"
-        yield Shot(
-            f"stick-nearly-1e-{3 * k}", f"{text} and height 8", cylinder(tiny, 8), (-tiny, 0, 3),
-            (tiny, 0, 0), pair(0, 2), flags=("needle",),
-        )  # fmt: skip
+        yield Shot(f"stick-nearly-1e-{3 * k}", f"{text} and height 8", cylinder(tiny, 8),
+                   (-tiny, 0, 3), (tiny, 0, 0), pair(0, 2), flags=("needle",))  # fmt: skip
 
 
 def _points(fmt: Format) -> Iterator[Shot]:
@@ -264,11 +262,10 @@ def _points(fmt: Format) -> Iterator[Shot]:
                        frame=drawn(1, int(shot.slug != "rest-on")))  # fmt: skip
     for k in decades(fmt):
         tiny = near(fmt, ten(-3 * k))
-        yield Shot(
-            f"nearly-1e-{3 * k}", f"A ray starts on a sphere of radius 1e-{3 * k} and crosses it",
-            ball(tiny), (-tiny, 0, 0), (tiny, 0, 0), pair(0, 2),
-            flags=("scene-scale", "start-on-surface"),
-        )  # fmt: skip
+        yield Shot(f"nearly-1e-{3 * k}",
+                   f"A ray starts on a sphere of radius 1e-{3 * k} and crosses it", ball(tiny),
+                   (-tiny, 0, 0), (tiny, 0, 0), pair(0, 2),
+                   flags=("scene-scale", "start-on-surface"))  # fmt: skip
 
 
 def triple(text: str) -> Vector:

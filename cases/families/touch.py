@@ -54,11 +54,10 @@ def _tangents(_: Format) -> Iterator[Shot]:
     for x, y, radius in CONTACTS:
         for climb, how in ((0, "level"), (1, "climbing")):
             for body in _bodies(radius):
-                yield Shot(
-                    f"{body.word}-{how}-at-{x}-{y}",
-                    f"A {how} tangent at ({x}, {y}) touches {body.noun} of radius {radius}",
-                    body, (x, y, MIDDLE), (y, -x, climb), touch(0), drawn(1, 2),
-                ).back(2)  # fmt: skip
+                yield Shot(f"{body.word}-{how}-at-{x}-{y}",
+                           f"A {how} tangent at ({x}, {y}) touches {body.noun} of radius {radius}",
+                           body, (x, y, MIDDLE), (y, -x, climb), touch(0),
+                           drawn(1, 2)).back(2)  # fmt: skip
 
 
 def _straight_tangents() -> Iterator[Shot]:
@@ -72,33 +71,27 @@ def _straight_tangents() -> Iterator[Shot]:
                     f"A ray along a coordinate axis has its touch of {body.noun} {where} the start",
                     body, (0, 4, MIDDLE), (4, 0, 0), touch(0), frame, ("perpendicular", *flags),
                 ).back(steps)  # fmt: skip
-        yield Shot(
-            "cylinder-straight-above",
-            "A tangent to the wall one unit above the cap touches nothing",
-            cylinder(4, 8), (-8, 4, 9), (4, 0, 0), MISS, frame, ("perpendicular",),
-        )  # fmt: skip
+        yield Shot("cylinder-straight-above",
+                   "A tangent to the wall one unit above the cap touches nothing", cylinder(4, 8),
+                   (-8, 4, 9), (4, 0, 0), MISS, frame, ("perpendicular",))  # fmt: skip
 
 
 def _gap(fmt: Format) -> Iterator[Shot]:
     for k in gaps(fmt):
         for side, sign in SIDES:
             for body in _bodies(1, 4)[k % 4 > 0 :]:
-                yield Shot(
-                    f"{body.word}-{side}-{power(-k)}",
-                    f"A ray passes 2^-{k} radii {side} tangency to {body.noun}",
-                    body, (-2, 1 + sign * two(-k), 2), (1, 0, 0), MISS if sign > 0 else None,
-                    flags=("perpendicular",),
-                )  # fmt: skip
+                yield Shot(f"{body.word}-{side}-{power(-k)}",
+                           f"A ray passes 2^-{k} radii {side} tangency to {body.noun}",
+                           body, (-2, 1 + sign * two(-k), 2), (1, 0, 0), MISS if sign > 0 else None,
+                           flags=("perpendicular",))  # fmt: skip
     # Climbing rays past (3, 4) times 1 -+ 2^-k, as far as the products have room.
     for k in range(1, fmt.precision - 6, 3):
         for side, sign in SIDES:
             share = 1 + sign * two(-k)
-            yield Shot(
-                f"skew-{side}-{power(-k)}",
-                f"A climbing ray passes 2^-{k} radii {side} tangency at (3, 4)",
-                cylinder(5, 16), (3 * share - 8, 4 * share + 6, 2), (4, -3, 3),
-                MISS if sign > 0 else None, UPRIGHT if k % 2 else FIFTHS,
-            )  # fmt: skip
+            yield Shot(f"skew-{side}-{power(-k)}",
+                       f"A climbing ray passes 2^-{k} radii {side} tangency at (3, 4)",
+                       cylinder(5, 16), (3 * share - 8, 4 * share + 6, 2), (4, -3, 3),
+                       MISS if sign > 0 else None, UPRIGHT if k % 2 else FIFTHS)  # fmt: skip
 
 
 def _start(fmt: Format) -> Iterator[Shot]:
@@ -106,20 +99,17 @@ def _start(fmt: Format) -> Iterator[Shot]:
         for climb, how in ((0, "level"), (2, "climbing")):
             for turn, way in ((1, "clockwise"), (-1, "counterclockwise")):
                 for body in _bodies(radius):
-                    yield Shot(
-                        f"{body.word}-{way}-{how}-at-{x}-{y}",
-                        f"A {how} {way} tangent of {body.noun} starts at ({x}, {y})",
-                        body, (x, y, MIDDLE), (turn * y, -turn * x, climb), touch(0),
-                        drawn(1, int(climb > 0)), ("tangent", "start-on-surface"),
-                    )  # fmt: skip
+                    yield Shot(f"{body.word}-{way}-{how}-at-{x}-{y}",
+                               f"A {how} {way} tangent of {body.noun} starts at ({x}, {y})", body,
+                               (x, y, MIDDLE), (turn * y, -turn * x, climb), touch(0),
+                               drawn(1, int(climb > 0)),
+                               ("tangent", "start-on-surface"))  # fmt: skip
     for k, way, sign, known in _leaning(fmt):
         for body in _bodies(1, 4):
-            yield Shot(
-                f"{body.word}-leaning-{way}-{power(-k)}",
-                f"A tangent turned {way}ward by 2^-{k} starts on the wall of {body.noun}",
-                body, (0, 1, 2), (1, sign * two(-k), 0), known,
-                flags=("near-tangent", "start-on-surface"),
-            )  # fmt: skip
+            yield Shot(f"{body.word}-leaning-{way}-{power(-k)}",
+                       f"A tangent turned {way}ward by 2^-{k} starts on the wall of {body.noun}",
+                       body, (0, 1, 2), (1, sign * two(-k), 0), known,
+                       flags=("near-tangent", "start-on-surface"))  # fmt: skip
 
 
 def _leaning(fmt: Format) -> Iterator[tuple[int, str, int, Pairs]]:
@@ -142,19 +132,15 @@ def _sphere_tangents(_: Format) -> Iterator[Shot]:
     for frame in ALIGNED:
         for when, t in TOUCHES.items():
             text = f"A ray along a coordinate axis touches a sphere at t = {t}"
-            yield Shot(
-                f"straight-{when}", text, ball(4), (0, 4, 0), (4, 0, 0), touch(0), frame,
-                START_FLAGS[t],
-            ).back(t)  # fmt: skip
+            yield Shot(f"straight-{when}", text, ball(4), (0, 4, 0), (4, 0, 0), touch(0), frame,
+                       START_FLAGS[t]).back(t)  # fmt: skip
     for x, y, z, radius in SPHERE_CONTACTS:
         for word, direction in tangents(x, y, z):
             for when, t in TOUCHES.items():
-                yield Shot(
-                    f"{word}-at-{x}-{y}-{z}-{when}",
-                    f"A {word} tangent touches a sphere at ({x}, {y}, {z}), at t = {t}",
-                    ball(radius), (x, y, z), direction, touch(0), drawn(0, 2 if t > 0 else 1),
-                    START_FLAGS[t],
-                ).back(t)  # fmt: skip
+                yield Shot(f"{word}-at-{x}-{y}-{z}-{when}",
+                           f"A {word} tangent touches a sphere at ({x}, {y}, {z}), at t = {t}",
+                           ball(radius), (x, y, z), direction, touch(0),
+                           drawn(0, 2 if t > 0 else 1), START_FLAGS[t]).back(t)  # fmt: skip
 
 
 def _sphere_gap(fmt: Format) -> Iterator[Shot]:
@@ -166,21 +152,18 @@ def _sphere_gap(fmt: Format) -> Iterator[Shot]:
             )  # fmt: skip
     for k in range(2, fmt.precision - 6, 8):
         for side, sign in SIDES:
-            yield Shot(
-                f"skew-{side}-{power(-k)}",
-                f"A ray passes 2^-{k} radii {side} tangency to a sphere at (1, 2, 2)",
-                ball(3), times(1 + sign * two(-k), (1, 2, 2)), (2, 1, -2),
-                MISS if sign > 0 else None, (UPRIGHT, SEVENTHS if k % 16 else FIFTHS),
-            ).back(2)  # fmt: skip
+            yield Shot(f"skew-{side}-{power(-k)}",
+                       f"A ray passes 2^-{k} radii {side} tangency to a sphere at (1, 2, 2)",
+                       ball(3), times(1 + sign * two(-k), (1, 2, 2)), (2, 1, -2),
+                       MISS if sign > 0 else None,
+                       (UPRIGHT, SEVENTHS if k % 16 else FIFTHS)).back(2)  # fmt: skip
 
 
 def _sphere_start(fmt: Format) -> Iterator[Shot]:
     for k, way, sign, known in _leaning(fmt):
-        yield Shot(
-            f"leaning-{way}-{power(-k)}",
-            f"A tangent turned {way}ward by 2^-{k} starts on a sphere",
-            ball(1), (0, 1, 0), (1, sign * two(-k), 0), known,
-        )  # fmt: skip
+        yield Shot(f"leaning-{way}-{power(-k)}",
+                   f"A tangent turned {way}ward by 2^-{k} starts on a sphere",
+                   ball(1), (0, 1, 0), (1, sign * two(-k), 0), known)  # fmt: skip
 
 
 # Rays through a point of a rim; the list is counted from there.
@@ -274,11 +257,9 @@ def _in_cap_plane(_: Format) -> Iterator[Shot]:
         ):
             for start, x in (("outside", -8), ("inside", 0), ("past", 8)):
                 known = MISS if half is None else between(x, 4, -half, half)
-                yield Shot(
-                    f"cap-{cap}-{name}-{start}",
-                    f"A ray in the cap plane of {cap} runs {text}, start {start}",
-                    body, (x, y, z), (4, 0, 0), known,
-                )  # fmt: skip
+                yield Shot(f"cap-{cap}-{name}-{start}",
+                           f"A ray in the cap plane of {cap} runs {text}, start {start}",
+                           body, (x, y, z), (4, 0, 0), known)  # fmt: skip
 
 
 def _parallel(fmt: Format) -> Iterator[Shot]:
@@ -291,22 +272,18 @@ def _parallel(fmt: Format) -> Iterator[Shot]:
         for body in _bodies(radius):
             for way, start, speed in (("up", -4, 2), ("down", 12, -2), ("away", 12, 2)):
                 inside = x * x + y * y <= radius * radius
-                yield Shot(
-                    f"{body.word}-{name}-{way}",
-                    f"A ray {text} of {body.noun} and parallel to its axis goes {way}",
-                    body, (x, y, start), (0, 0, speed),
-                    _run(inside, body, between(start, speed, 0, HEIGHT)), drawn(1, 1),
-                    ("wall",) if name == "on" else (),
-                )  # fmt: skip
+                yield Shot(f"{body.word}-{name}-{way}",
+                           f"A ray {text} of {body.noun} and parallel to its axis goes {way}",
+                           body, (x, y, start), (0, 0, speed),
+                           _run(inside, body, between(start, speed, 0, HEIGHT)), drawn(1, 1),
+                           ("wall",) if name == "on" else ())  # fmt: skip
     for k in gaps(fmt, 6):
         for side, sign in SIDES:
             for body in _bodies(1, 2):
-                yield Shot(
-                    f"{body.word}-{side}-{power(-k)}",
-                    f"A parallel ray runs 2^-{k} radii {side} the wall of {body.noun}",
-                    body, (0, 1 + sign * two(-k), -2), (0, 0, 1),
-                    _run(sign < 0, body, pair(2, 4)), UPRIGHT, ("near-tangent",), "stiff",
-                )  # fmt: skip
+                yield Shot(f"{body.word}-{side}-{power(-k)}",
+                           f"A parallel ray runs 2^-{k} radii {side} the wall of {body.noun}", body,
+                           (0, 1 + sign * two(-k), -2), (0, 0, 1), _run(sign < 0, body, pair(2, 4)),
+                           UPRIGHT, ("near-tangent",), "stiff")  # fmt: skip
 
 
 def _run(inside: bool, body: Body, capped: Pairs) -> Pairs:
@@ -334,10 +311,8 @@ def _perpendicular(_: Format) -> Iterator[Shot]:
     for name, z, known in (("in-p", 0, ALWAYS), ("beyond", 9, MISS)):
         for body in (slab(HEIGHT), half_space(0)):
             text = f"A ray square to the normal of {body.noun} runs at height {z}"
-            yield Shot(
-                f"{body.word}-{name}", text, body, (-2, 1, z), (3, 4, 0), known,
-                flags=() if z else ("cap-plane",),
-            )  # fmt: skip
+            yield Shot(f"{body.word}-{name}", text, body, (-2, 1, z), (3, 4, 0), known,
+                       flags=() if z else ("cap-plane",))  # fmt: skip
 
 
 FAMILIES = (

@@ -25,7 +25,6 @@ from raycert.cases.model import (
     points,
     radius,
     real,
-    remade,
     vector,
 )
 
@@ -122,12 +121,3 @@ def test_a_leaf_tells_where_it_stands_which_way_it_goes_and_how_large_it_is() ->
     assert lengths(CUT) == [0, 0, 1]
     assert (radius(ROD), radius(CUT), radius(CUT, 1.0)) == (0.5, 0, 1)
     assert axis(Sphere((0, 0, 0), 1)) is None
-
-
-def test_a_leaf_is_remade_from_changed_places_and_lengths() -> None:
-    grown = remade(ROD, lambda p: [2 * x for x in p], lambda r: 2 * r)
-    assert grown == Cylinder((2, 4, 6), (2, 4, 10), 1)
-    turned = remade(CUT, lambda p: p, abs, lambda n: [-x for x in n])
-    assert turned == HalfSpace((0, 0, 1), (0, 0, -8))
-    with pytest.raises(Refused, match=r"^q: is the same point as p"):
-        remade(InfiniteCylinder((0, 0, 0), (0, 0, 1), 1), lambda p: (0, 0, 0), abs)
