@@ -7,11 +7,12 @@ Reading refuses every malformed object with `Refused`, whose path leads to the f
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import fields
 from functools import cache
 from json.encoder import encode_basestring_ascii
-from typing import Any
+from types import UnionType
+from typing import Any, Self, TypeVar
 
 from raycert.cases.formats import BINARY64, Format, Spelling, parse, spell
 from raycert.cases.model import (
@@ -28,6 +29,7 @@ from raycert.cases.model import (
 )
 
 Json = dict[str, Any]
+T = TypeVar("T")
 DEEPEST = 200
 
 
@@ -54,9 +56,9 @@ def read_ray(
 ) -> Ray:
     """Return the ray that a JSON object describes, or refuse it."""
     read = _reader(spelling, fmt)
-    values = _fields(form, path, Ray, set())
+    values = fields_of(form, path, Ray.__slots__)
     try:
-        return Ray(**{name: read(name, value) for name, value in values.items()})
+        return Ray(**{name: read(name, values[name]) for name in Ray.__slots__})
     except Refused as refusal:
         raise refusal.under(path) from None
 
@@ -67,14 +69,10 @@ def read_solid(
     """Return the solid that a JSON object describes, or refuse it."""
     if path.count(".of[") > DEEPEST:
         raise Refused(path, f"is nested more than {DEEPEST} deep")
-    if not isinstance(form, Mapping):
-        raise Refused(path, f"is not an object: {form!r:.40}")
-    kind = form.get("type")
-    if not isinstance(kind, str) or kind not in SOLIDS:
-        raise Refused(f"{path}.type", f"is not one of {', '.join(SOLIDS)}: {kind!r:.40}")
-    read = _reader(spelling, fmt)
-    values = _fields(form, path, SOLIDS[kind], {"type"})
-    if "of" in values:
+    kind = type_in(form, path, SOLIDS)
+    read, names = _reader(spelling, fmt), [field.name for field in fields(SOLIDS[kind])]
+    values = fields_of(form, path, names, ("type",))
+    if "of" in names:
         parts = values["of"]
         if not isinstance(parts, list) or not parts:
             raise Refused(f"{path}.of", "is not a list of one or more solids")
@@ -83,23 +81,70 @@ def read_solid(
         ]
         return SOLIDS[kind](of=tuple(children))  # type: ignore[call-arg]
     try:
-        return SOLIDS[kind](**{name: read(name, value) for name, value in values.items()})
+        return SOLIDS[kind](**{name: read(name, values[name]) for name in names})
     except Refused as refusal:
         raise refusal.under(path) from None
 
 
-def _fields(form: object, path: str, kind: type, besides: set[str]) -> Json:
-    """Return the fields of `kind` in `form`; refuse a missing or an unknown one."""
+def type_in(form: object, path: str, types: Iterable[str]) -> str:
+    """Return the type that an object says it is, one of `types`, or refuse it."""
     if not isinstance(form, Mapping):
         raise Refused(path, f"is not an object: {form!r:.40}")
-    names = [field.name for field in fields(kind)]
+    kind = form.get("type")
+    if not isinstance(kind, str) or kind not in types:
+        raise Refused(f"{path}.type", f"is not one of {', '.join(types)}: {kind!r:.40}")
+    return kind
+
+
+def fields_of(
+    form: object, path: str, needed: Sequence[str], besides: Sequence[str] = ()
+) -> Mapping[str, Any]:
+    """Return an object with all of the needed fields and no unknown one, or refuse it."""
+    if not isinstance(form, Mapping):
+        raise Refused(path, f"is not an object: {form!r:.40}")
+    known, prefix = (*needed, *besides), f"{path}." if path else ""
     for name in form:
-        if name not in names and name not in besides:
-            raise Refused(f"{path}.{name}", f"is not a field here (fields: {', '.join(names)})")
-    for name in names:
+        if name not in known:
+            reason = f"is not a field here (fields: {', '.join(known)})"
+            raise Refused(f"{prefix}{name}", reason)
+    for name in needed:
         if name not in form:
-            raise Refused(f"{path}.{name}", "is missing")
-    return {name: form[name] for name in names}
+            raise Refused(f"{prefix}{name}", "is missing")
+    return form
+
+
+class Fields:
+    """The fields of a JSON object, each refused if it is missing or of another type."""
+
+    def __init__(self, form: object, path: str) -> None:
+        if not isinstance(form, dict):
+            raise Refused(path, "is not an object")
+        self.form: Json = form
+        self.path = path
+
+    def __call__(self, name: str, kind: type | UnionType) -> Any:
+        if name not in self.form:
+            raise Refused(f"{self.path}.{name}", "is missing")
+        value = self.form[name]
+        if not isinstance(value, kind) or isinstance(value, bool):
+            raise Refused(f"{self.path}.{name}", f"is not a {getattr(kind, '__name__', kind)}")
+        return value
+
+    def inside(self, name: str) -> Self:
+        """Return the fields of a field that is an object."""
+        return type(self)(self(name, dict), f"{self.path}.{name}")
+
+    def many(self, name: str, kind: type[T]) -> tuple[T, ...]:
+        """Return the items of a list, all of one type."""
+        items = self(name, list)
+        if not all(isinstance(x, kind) and not isinstance(x, bool) for x in items):
+            raise Refused(f"{self.path}.{name}", f"is not a list of {kind.__name__}")
+        return tuple(items)
+
+    def each(self, name: str) -> Iterator[Self]:
+        """Yield the fields of each object in a list."""
+        for i, item in enumerate(self(name, list)):
+            yield type(self)(item, f"{self.path}.{name}[{i}]")
 
 
 def _reader(spelling: Spelling, fmt: Format) -> Callable[[str, object], Any]:

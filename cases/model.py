@@ -92,19 +92,31 @@ _READ: dict[str, Callable[[object, str], object]] = {
 }
 
 
-def _check(target: Leaf | Ray, *apart: str) -> None:
-    """Store the fields as what they are declared to be, or refuse one; `apart` are two that differ.
+class _Checked:
+    """Stores the fields of a ray or a leaf as what they are declared to be, or refuses one."""
 
-    An instance is frozen, so that its checked fields go past its own `__setattr__`.
-    """
-    for name, read in _READERS[type(target)]:
-        object.__setattr__(target, name, read(getattr(target, name), name))
-    if apart and getattr(target, apart[0]) == getattr(target, apart[1]):
-        raise Refused(apart[1], f"is the same point as {apart[0]}: the axis has no direction")
+    __slots__ = ()
+
+    def __post_init__(self) -> None:
+        for name, read in _READERS[type(self)]:  # past the `__setattr__` of a frozen class
+            object.__setattr__(self, name, read(getattr(self, name), name))
+
+
+class _Axial(_Checked):
+    """A leaf whose axis runs from p to q: refuses p = q."""
+
+    __slots__ = ()
+    p: Point
+    q: Point
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.p == self.q:
+            raise Refused("q", "is the same point as p: the axis has no direction")
 
 
 @dataclass(frozen=True, slots=True)
-class Ray:
+class Ray(_Checked):
     """f(t) = origin + t * direction, t >= 0. The zero direction stays at its origin.
 
     >>> Ray(origin=(-3, 0, 1), direction=(1, 0, 0))
@@ -114,13 +126,9 @@ class Ray:
     origin: Point
     direction: Direction
 
-    def __post_init__(self) -> None:
-        """Refuse what is not two vectors of finite numbers."""
-        _check(self)
-
 
 @dataclass(frozen=True, slots=True)
-class HalfSpace:
+class HalfSpace(_Checked):
     """(x - point) . normal <= 0, with the outward normal of any length but zero.
 
     >>> HalfSpace(point=(0, 0, 1), normal=(0, 0, 2))
@@ -131,14 +139,13 @@ class HalfSpace:
     normal: Direction
 
     def __post_init__(self) -> None:
-        """Refuse a zero normal."""
-        _check(self)
+        _Checked.__post_init__(self)
         if not any(self.normal):
             raise Refused("normal", "is zero")
 
 
 @dataclass(frozen=True, slots=True)
-class Sphere:
+class Sphere(_Checked):
     """|x - center| <= radius.
 
     >>> Sphere(center=(0, 0, 0), radius=-1)
@@ -150,13 +157,9 @@ class Sphere:
     center: Point
     radius: Length
 
-    def __post_init__(self) -> None:
-        """Refuse a negative radius."""
-        _check(self)
-
 
 @dataclass(frozen=True, slots=True)
-class InfiniteCylinder:
+class InfiniteCylinder(_Axial):
     """Distance from the line through p and q <= radius.
 
     >>> InfiniteCylinder(p=(0, 0, 0), q=(0, 0, 1), radius=2).radius
@@ -167,13 +170,9 @@ class InfiniteCylinder:
     q: Point
     radius: Length
 
-    def __post_init__(self) -> None:
-        """Refuse p = q and a negative radius."""
-        _check(self, "p", "q")
-
 
 @dataclass(frozen=True, slots=True)
-class Slab:
+class Slab(_Axial):
     """Between the two planes through p and q square to pq.
 
     >>> Slab(p=(0, 0, 0), q=(0, 0, 0))
@@ -185,13 +184,9 @@ class Slab:
     p: Point
     q: Point
 
-    def __post_init__(self) -> None:
-        """Refuse p = q."""
-        _check(self, "p", "q")
-
 
 @dataclass(frozen=True, slots=True)
-class Cylinder:
+class Cylinder(_Axial):
     """In the infinite cylinder and in the slab of the same p and q.
 
     >>> Cylinder(p=[0, 0, 0], q=[0, 0, 2], radius=1).q
@@ -202,37 +197,31 @@ class Cylinder:
     q: Point
     radius: Length
 
+
+@dataclass(frozen=True, slots=True)
+class _Boolean:
+    of: tuple[Solid, ...]
+
     def __post_init__(self) -> None:
-        """Refuse p = q and a negative radius."""
-        _check(self, "p", "q")
-
-
-def _parts(tree: Union | Intersection | Difference) -> None:
-    if not isinstance(tree.of, list | tuple) or not tree.of:
-        raise Refused("of", "is not a list of one or more solids")
-    for i, part in enumerate(tree.of):
-        if not isinstance(part, Solid):
-            raise Refused(f"of[{i}]", f"is not a solid: {part!r:.40}")
-    object.__setattr__(tree, "of", tuple(tree.of))
+        if not isinstance(self.of, list | tuple) or not self.of:
+            raise Refused("of", "is not a list of one or more solids")
+        for i, part in enumerate(self.of):
+            if not isinstance(part, Solid):
+                raise Refused(f"of[{i}]", f"is not a solid: {part!r:.40}")
+        object.__setattr__(self, "of", tuple(self.of))
 
 
 @dataclass(frozen=True, slots=True)
-class Union:
+class Union(_Boolean):
     """In any part.
 
     >>> len(Union([Sphere((0, 0, 0), 1), Sphere((1, 0, 0), 1)]).of)
     2
     """
 
-    of: tuple[Solid, ...]
-
-    def __post_init__(self) -> None:
-        """Refuse an empty list of parts."""
-        _parts(self)
-
 
 @dataclass(frozen=True, slots=True)
-class Intersection:
+class Intersection(_Boolean):
     """In every part.
 
     >>> Intersection([])
@@ -241,27 +230,15 @@ class Intersection:
     raycert.cases.model.Refused: of: is not a list of one or more solids
     """
 
-    of: tuple[Solid, ...]
-
-    def __post_init__(self) -> None:
-        """Refuse an empty list of parts."""
-        _parts(self)
-
 
 @dataclass(frozen=True, slots=True)
-class Difference:
+class Difference(_Boolean):
     """In the first part, less all the others; closed again along the ray.
 
     >>> shell = Difference([Sphere((0, 0, 0), 2), Sphere((0, 0, 0), 1)])
     >>> [part.radius for part in shell.of]
     [2.0, 1.0]
     """
-
-    of: tuple[Solid, ...]
-
-    def __post_init__(self) -> None:
-        """Refuse an empty list of parts."""
-        _parts(self)
 
 
 Leaf = HalfSpace | Sphere | InfiniteCylinder | Slab | Cylinder
@@ -306,7 +283,7 @@ VECTORS = frozenset(
     field.name for kind in (Ray, *LEAVES) for field in fields(kind) if field.type != "Length"
 )
 """The fields of rays and leaves that are three numbers."""
-_READERS = {
+_READERS: dict[type, list[tuple[str, Callable[[object, str], object]]]] = {
     kind: [(field.name, _READ[str(field.type)]) for field in fields(kind)]
     for kind in (Ray, *LEAVES)
 }

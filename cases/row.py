@@ -6,19 +6,17 @@ with `Refused`, naming the field, whatever writing would not give back.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import isnan
-from types import UnionType
-from typing import Any, TypeVar
+from typing import Any
 
 from raycert.cases.accept import Accept, Numbers
 from raycert.cases.case import TIERS, Tier
 from raycert.cases.formats import Format, parse, spell
-from raycert.cases.forms import Json, read_ray, read_solid, write_ray, write_solid
+from raycert.cases.forms import Fields, Json, read_ray, read_solid, write_ray, write_solid
 from raycert.cases.model import Ray, Refused, Solid
 
-T = TypeVar("T")
+ROUNDED = ("nearest", "down", "up")
 ACCEPTED = ("sound", "stable")
 """The levels that a row holds lists of numbers for."""
 
@@ -75,31 +73,26 @@ class GoldenRow:
 
 
 def write_row(row: GoldenRow, fmt: Format) -> Json:
-    return {
-        "id": row.id,
-        "why": row.why,
-        "flags": list(row.flags),
-        "tier": row.tier,
-        "source": row.source,
-        "solid": write_solid(row.solid, "hex", fmt),
-        "ray": write_ray(row.ray, "hex", fmt),
-        "rows": list(row.rows),
-        "condition": row.condition,
-        "decisive": list(row.decisive),
-        "intervals": [
-            {"enter": _write_end(s.enter), "leave": _write_end(s.leave), "touch": s.touch}
-            for s in row.intervals
-        ],
-        "expected": _write_numbers(row.expected),
-        "accept": {
-            level: {
-                "inner": _write_numbers(accept.inner),
-                "outer": _write_numbers(accept.outer),
-                "most": list(accept.most),
-            }
-            for level, accept in row.accept.items()
-        },
-    }
+    form: Json = _written(row, fmt)
+    return form
+
+
+def _written(value: object, fmt: Format) -> Any:
+    """Return a value of a row as JSON: a record is an object of its fields, in their order."""
+    match value:
+        case float():
+            return real(value)
+        case tuple():
+            return [_written(item, fmt) for item in value]
+        case dict():
+            return {name: _written(item, fmt) for name, item in value.items()}
+        case Ray():
+            return write_ray(value, "hex", fmt)
+        case End():
+            return _write_end(value)
+        case GoldenRow() | Span() | Accept():
+            return {name: _written(getattr(value, name), fmt) for name in value.__slots__}
+    return write_solid(value, "hex", fmt) if isinstance(value, Solid) else value
 
 
 def _write_end(end: End) -> Json:
@@ -110,113 +103,66 @@ def _write_end(end: End) -> Json:
         form = {"fraction": "{}/{}".format(*end.fraction)}
     else:
         form = {"inf": True}
-    return form | {
-        "nearest": real(end.nearest),
-        "down": real(end.down),
-        "up": real(end.up),
-        "digits": end.digits,
-        "faces": list(end.faces),
-        "kind": end.kind,
-    }
+    rounded = {name: real(getattr(end, name)) for name in ROUNDED}
+    return form | rounded | {"digits": end.digits, "faces": list(end.faces), "kind": end.kind}
 
 
 def real(number: float) -> str:
     return str(spell(number, "hex") or "inf")
 
 
-def _write_numbers(pairs: Numbers) -> list[list[str]]:
-    return [[real(a), real(b)] for a, b in pairs]
-
-
 def read_row(form: object, fmt: Format) -> GoldenRow:
     """Return the row that a JSON object describes, or refuse it."""
-    get = _Fields(form, "row")
+    get = _Record(form, "row")
     tier = get("tier", str)
     if tier not in TIERS:
         raise Refused("row.tier", f"is not one of {', '.join(TIERS)}: {tier!r:.40}")
-    accept = _Fields(get("accept", dict), "row.accept")
+    accept = get.inside("accept")
     row = GoldenRow(
-        id=get("id", str),
-        why=get("why", str),
-        flags=get.many("flags", str),
-        tier=tier,
-        source=get("source", str),
-        solid=read_solid(get("solid", dict), "solid", "hex", fmt),
-        ray=read_ray(get("ray", dict), "ray", "hex", fmt),
-        rows=get.many("rows", str),
-        condition=get("condition", int | None),
-        decisive=get.many("decisive", str),
-        intervals=get.each("intervals", _read_span),
-        expected=get.numbers("expected"),
+        id=get("id", str), why=get("why", str), flags=get.many("flags", str), tier=tier,
+        source=get("source", str), solid=read_solid(get("solid", dict), "solid", "hex", fmt),
+        ray=read_ray(get("ray", dict), "ray", "hex", fmt), rows=get.many("rows", str),
+        condition=get("condition", int | None), decisive=get.many("decisive", str),
+        intervals=tuple(map(_read_span, get.each("intervals"))), expected=get.numbers("expected"),
         accept={level: _read_accept(accept.inside(level)) for level in ACCEPTED},
-    )
+    )  # fmt: skip
     for name, value in (get.form | write_row(row, fmt)).items():
         if get.form[name] != value or name not in GoldenRow.__slots__:
             raise Refused(f"row.{name}", "is not as a row is written")
     return row
 
 
-class _Fields:
-    """The fields of a JSON object, each refused if it is missing or of another type."""
-
-    def __init__(self, form: object, path: str) -> None:
-        if not isinstance(form, dict):
-            raise Refused(path, "is not an object")
-        self.form = form
-        self.path = path
-
-    def __call__(self, name: str, kind: type | UnionType) -> Any:
-        if name not in self.form:
-            raise Refused(f"{self.path}.{name}", "is missing")
-        value = self.form[name]
-        if not isinstance(value, kind) or isinstance(value, bool):
-            raise Refused(f"{self.path}.{name}", f"is not a {getattr(kind, '__name__', kind)}")
-        return value
-
-    def inside(self, name: str) -> _Fields:
-        return _Fields(self(name, dict), f"{self.path}.{name}")
-
-    def many(self, name: str, kind: type[T]) -> tuple[T, ...]:
-        items = self(name, list)
-        if not all(isinstance(x, kind) and not isinstance(x, bool) for x in items):
-            raise Refused(f"{self.path}.{name}", f"is not a list of {kind.__name__}")
-        return tuple(items)
-
-    def each(self, name: str, read: Callable[[_Fields], T]) -> tuple[T, ...]:
-        items = self(name, list)
-        return tuple(read(_Fields(x, f"{self.path}.{name}[{i}]")) for i, x in enumerate(items))
-
-    def real(self, name: str) -> float:
-        return _number(self(name, str), f"{self.path}.{name}")
+class _Record(Fields):
+    """The fields of a row, or of an object in it."""
 
     def numbers(self, name: str) -> Numbers:
-        path = f"{self.path}.{name}"
+        """Return a list of pairs of numbers."""
         pairs = self(name, list)
         if not all(isinstance(pair, list) and len(pair) == 2 for pair in pairs):
-            raise Refused(path, "is not a list of pairs")
-        return tuple((_number(a, path), _number(b, path)) for a, b in pairs)
+            raise Refused(f"{self.path}.{name}", "is not a list of pairs")
+        return tuple((self.number(name, a), self.number(name, b)) for a, b in pairs)
+
+    def number(self, name: str, text: object) -> float:
+        """Return the number that a text in a field spells."""
+        try:
+            number = parse(text, "hex")
+        except (ValueError, OverflowError) as error:
+            raise Refused(f"{self.path}.{name}", str(error)) from None
+        if isnan(number):
+            raise Refused(f"{self.path}.{name}", "is NaN")
+        return number
 
 
-def _number(text: object, path: str) -> float:
-    try:
-        number = parse(text, "hex")
-    except (ValueError, OverflowError) as error:
-        raise Refused(path, str(error)) from None
-    if isnan(number):
-        raise Refused(path, "is NaN")
-    return number
-
-
-def _read_span(get: _Fields) -> Span:
+def _read_span(get: _Record) -> Span:
     enter, leave = (_read_end(get.inside(name)) for name in ("enter", "leave"))
     return Span(enter, leave, get("touch", str | None))
 
 
-def _read_end(get: _Fields) -> End:
+def _read_end(get: _Record) -> End:
     polynomial = fraction = root = None
     try:
         if "polynomial" in get.form:
-            polynomial = tuple(int(c) for c in get.many("polynomial", str))
+            polynomial = tuple(map(int, get.many("polynomial", str)))
             root = get("root", int)
             if root not in (0, 1):
                 raise Refused(f"{get.path}.root", f"is not 0 or 1: {root}")
@@ -225,20 +171,12 @@ def _read_end(get: _Fields) -> End:
             fraction = (int(top), int(bottom))
     except ValueError as error:
         raise error if isinstance(error, Refused) else Refused(get.path, str(error)) from None
-    return End(
-        polynomial=polynomial,
-        root=root,
-        fraction=fraction,
-        nearest=get.real("nearest"),
-        down=get.real("down"),
-        up=get.real("up"),
-        digits=get("digits", str),
-        faces=get.many("faces", str),
-        kind=get("kind", str),
-    )
+    nearest, down, up = (get.number(name, get(name, str)) for name in ROUNDED)
+    written = get("digits", str), get.many("faces", str), get("kind", str)
+    return End(polynomial, root, fraction, nearest, down, up, *written)
 
 
-def _read_accept(get: _Fields) -> Accept:
+def _read_accept(get: _Record) -> Accept:
     accept = Accept(get.numbers("inner"), get.numbers("outer"), get.many("most", int))
     if len(accept.most) != len(accept.outer):
         raise Refused(f"{get.path}.most", "has not one number for each pair of outer")

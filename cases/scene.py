@@ -26,9 +26,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
-from raycert.cases.forms import Json, read_solid, write_solid
+from raycert.cases.forms import Json, fields_of, read_solid, type_in, write_solid
 from raycert.cases.model import Ray, Refused, Solid, Union, Vector, real, vector
 from raycert.cases.vectors import cross, minus
 
@@ -107,7 +107,7 @@ def pixel_ray(frame: Frame, size: tuple[int, int], column: int, row: int) -> Ray
 
 def read_scene(form: object) -> Scene:
     """Return the scene that a JSON object describes, or refuse it."""
-    fields = _object(form, "", ("solids", "camera", "size"), ("about",))
+    fields = fields_of(form, "", ("solids", "camera", "size"), ("about",))
     about = fields.get("about", "")
     if not isinstance(about, str):
         raise Refused("about", f"is not a text: {about!r:.40}")
@@ -177,26 +177,6 @@ def _check_rays(scene: Scene) -> None:
             raise Refused(f"camera.{name}", "makes rays beyond binary64") from None
 
 
-def _object(
-    form: object, path: str, needed: tuple[str, ...], besides: tuple[str, ...] = ()
-) -> Mapping[str, Any]:
-    """Return an object with all of the needed fields and no unknown one, or refuse it."""
-    if not isinstance(form, Mapping):
-        raise Refused(path or "scene", f"is not an object: {form!r:.40}")
-    known = (*needed, *besides)
-    for name in form:
-        if name not in known:
-            raise Refused(_at(path, name), f"is not a field here (fields: {', '.join(known)})")
-    for name in needed:
-        if name not in form:
-            raise Refused(_at(path, name), "is missing")
-    return form
-
-
-def _at(path: str, name: str) -> str:
-    return f"{path}.{name}" if path else name
-
-
 def _solids(form: object) -> tuple[tuple[str, Solid], ...]:
     if isinstance(form, Mapping):
         if isinstance(form.get("type"), str):
@@ -205,7 +185,7 @@ def _solids(form: object) -> tuple[tuple[str, Solid], ...]:
     elif isinstance(form, list):
         named = []
         for i, item in enumerate(form):
-            part = _object(item, f"solids[{i}]", ("name", "solid"))
+            part = fields_of(item, f"solids[{i}]", ("name", "solid"))
             named.append((part["name"], part["solid"], f"solids[{i}].solid"))
     else:
         raise Refused("solids", f"is neither a solid, nor named solids: {form!r:.40}")
@@ -220,13 +200,9 @@ def _solids(form: object) -> tuple[tuple[str, Solid], ...]:
 
 
 def _camera(form: object) -> Camera:
-    if not isinstance(form, Mapping):
-        raise Refused("camera", f"is not an object: {form!r:.40}")
-    kind = form.get("type")
-    if not isinstance(kind, str) or kind not in EXTENT:
-        raise Refused("camera.type", f"is not one of {', '.join(EXTENT)}: {kind!r:.40}")
+    kind = type_in(form, "camera", EXTENT)
     name = EXTENT[kind]
-    fields = _object(form, "camera", ("type", "eye", "look_at", "up", name))
+    fields = fields_of(form, "camera", ("type", "eye", "look_at", "up", name))
     eye, look_at, up = (vector(fields[x], f"camera.{x}") for x in ("eye", "look_at", "up"))
     extent = real(fields[name], f"camera.{name}")
     if extent <= 0:

@@ -35,36 +35,9 @@ from functools import cache
 from math import ldexp
 from typing import Any, TypeVar
 
+from raycert.cases import recipes
 from raycert.cases.formats import BINARY64, Format
 from raycert.cases.model import Leaf, Ray, Solid, Vector
-from raycert.cases.recipes import (
-    ALONG,
-    AWAY,
-    BACK,
-    DIRECTIONS,
-    LEAVES,
-    MOVED,
-    NESTED,
-    PICKS,
-    RADII,
-    SPEEDS,
-    STILL,
-    TREES,
-    TURNS,
-    UNITS,
-    Aim,
-    Axis,
-    LeafRecipe,
-    Pool,
-    Recipe,
-    Spot,
-    TreeRecipe,
-    alike,
-    make_leaf,
-    make_ray,
-    make_solid,
-    neighbour,
-)
 
 try:
     from hypothesis import strategies as st
@@ -76,19 +49,19 @@ except ImportError:
 T = TypeVar("T")
 Ensemble = tuple[tuple[Solid, ...], Ray]
 
-KINDS = LEAVES + TREES
-WEIGHTS = dict(zip(LEAVES, (1, 2, 2, 1, 3), strict=True))
+KINDS = recipes.LEAVES + recipes.TREES
+WEIGHTS = dict(zip(recipes.LEAVES, (1, 2, 2, 1, 3), strict=True))
 
 REACH = 10
 """Powers of two lie between 2^-REACH and 2^REACH; other coordinates are drawn from [-8, 8]."""
-STANDING = st.just(STILL)
+STANDING = st.just(recipes.STILL)
 WHOLE = st.integers(-4, 4).map(float)
 
 
 def numbers(fmt: Format = BINARY64) -> st.SearchStrategy[float]:
     """Return small integers, powers of two, their neighbours in the format, and any in [-8, 8]."""
     powers = st.builds(ldexp, st.sampled_from((1.0, -1.0)), st.integers(-REACH, REACH))
-    near = st.builds(neighbour, WHOLE | powers, st.booleans(), st.just(fmt))
+    near = st.builds(recipes.neighbour, WHOLE | powers, st.booleans(), st.just(fmt))
     return st.one_of(WHOLE, powers, near, _random(fmt))
 
 
@@ -97,12 +70,16 @@ def vectors(fmt: Format = BINARY64) -> st.SearchStrategy[Vector]:
     return st.one_of(_thrice(WHOLE), _thrice(numbers(fmt)), _thrice(_random(fmt)))
 
 
-def leaves(kinds: Iterable[str] = LEAVES, fmt: Format = BINARY64) -> st.SearchStrategy[Leaf]:
+def leaves(
+    kinds: Iterable[str] = recipes.LEAVES, fmt: Format = BINARY64
+) -> st.SearchStrategy[Leaf]:
     """Return leaves of the types named as in the protocol: `half_space`, `sphere`, ..."""
     chosen, trees = _split(kinds)
     if trees:
         raise ValueError(f"not a leaf: {', '.join(trees)}")
-    return _styled(fmt, lambda style: st.builds(make_leaf, _leaves(chosen, style), _pools(style)))
+    return _styled(
+        fmt, lambda style: st.builds(recipes.make_leaf, _leaves(chosen, style), _pools(style))
+    )
 
 
 def solids(
@@ -111,7 +88,10 @@ def solids(
     """Return leaves, and trees of so many leaves at most; of the types named."""
     names = _split(kinds)
     return _styled(
-        fmt, lambda style: st.builds(make_solid, _trees(max_leaves, names, style), _pools(style))
+        fmt,
+        lambda style: st.builds(
+            recipes.make_solid, _trees(max_leaves, names, style), _pools(style)
+        ),
     )
 
 
@@ -141,7 +121,8 @@ def rays(solid: Solid | None = None, fmt: Format = BINARY64) -> st.SearchStrateg
         directions = _styled(fmt, lambda style: _mixed((9, _directions(style)), (1, STANDING)))
         return st.builds(Ray, vectors(fmt), directions)
     return _styled(
-        fmt, lambda style: st.builds(make_ray, st.just((solid,)), _aims(style), _pools(style))
+        fmt,
+        lambda style: st.builds(recipes.make_ray, st.just((solid,)), _aims(style), _pools(style)),
     )
 
 
@@ -168,10 +149,10 @@ def _split(kinds: Iterable[str]) -> tuple[tuple[str, ...], tuple[str, ...]]:
     wanted = {kinds} if isinstance(kinds, str) else set(kinds)
     if unknown := sorted(wanted - set(KINDS)):
         raise ValueError(f"unknown type {', '.join(unknown)}; known are {', '.join(KINDS)}")
-    chosen = tuple(name for name in LEAVES if name in wanted)
+    chosen = tuple(name for name in recipes.LEAVES if name in wanted)
     if not chosen:
-        raise ValueError(f"no leaf among the types; name one of {', '.join(LEAVES)}")
-    return chosen, tuple(name for name in TREES if name in wanted)
+        raise ValueError(f"no leaf among the types; name one of {', '.join(recipes.LEAVES)}")
+    return chosen, tuple(name for name in recipes.TREES if name in wanted)
 
 
 def _thrice(parts: st.SearchStrategy[float]) -> st.SearchStrategy[Vector]:
@@ -195,30 +176,32 @@ def _coordinates(style: _Style) -> st.SearchStrategy[Vector]:
 @cache
 def _directions(style: _Style) -> st.SearchStrategy[Vector]:
     """Return vectors other than 0: on the lattice mostly along an axis, or of whole length."""
-    some = _coordinates(style).map(lambda v: v if any(v) else UNITS[2])
-    return _mixed((3, st.sampled_from(DIRECTIONS)), (1, some)) if style.lattice else some
+    some = _coordinates(style).map(lambda v: v if any(v) else recipes.UNITS[2])
+    return _mixed((3, st.sampled_from(recipes.DIRECTIONS)), (1, some)) if style.lattice else some
 
 
 @cache
 def _radii(style: _Style) -> st.SearchStrategy[float]:
-    return st.sampled_from(RADII) if style.lattice else _random(style.fmt).map(abs)
+    return st.sampled_from(recipes.RADII) if style.lattice else _random(style.fmt).map(abs)
 
 
 @cache
-def _axes(style: _Style) -> st.SearchStrategy[Axis]:
+def _axes(style: _Style) -> st.SearchStrategy[recipes.Axis]:
     return st.tuples(_coordinates(style), _directions(style))
 
 
 @cache
-def _pools(style: _Style) -> st.SearchStrategy[Pool]:
+def _pools(style: _Style) -> st.SearchStrategy[recipes.Pool]:
     parts = _coordinates(style), _axes(style), _radii(style)
-    return st.builds(Pool.of, *(st.tuples(part, part) for part in parts), st.just(style.fmt))
+    return st.builds(
+        recipes.Pool.of, *(st.tuples(part, part) for part in parts), st.just(style.fmt)
+    )
 
 
 @cache
-def _leaves(kinds: tuple[str, ...], style: _Style) -> st.SearchStrategy[LeafRecipe]:
+def _leaves(kinds: tuple[str, ...], style: _Style) -> st.SearchStrategy[recipes.LeafRecipe]:
     """Return leaves whose fields are mostly picked from the pool."""
-    pick = st.sampled_from(PICKS)
+    pick = st.sampled_from(recipes.PICKS)
     fields: dict[str, st.SearchStrategy[Any]] = {
         "axis": _mixed((3, pick), (1, _axes(style))),
         "point": _mixed((3, pick), (1, _coordinates(style))),
@@ -226,9 +209,9 @@ def _leaves(kinds: tuple[str, ...], style: _Style) -> st.SearchStrategy[LeafReci
     }
     needs = {"sphere": ("point", "radius"), "half_space": ("axis",), "slab": ("axis",)}
 
-    def leaf(kind: str) -> st.SearchStrategy[LeafRecipe]:
+    def leaf(kind: str) -> st.SearchStrategy[recipes.LeafRecipe]:
         needed = {name: fields[name] for name in needs.get(kind, ("axis", "radius"))}
-        return st.builds(LeafRecipe, st.just(kind), **needed)
+        return st.builds(recipes.LeafRecipe, st.just(kind), **needed)
 
     return _mixed(*((WEIGHTS[kind], leaf(kind)) for kind in kinds))
 
@@ -236,42 +219,46 @@ def _leaves(kinds: tuple[str, ...], style: _Style) -> st.SearchStrategy[LeafReci
 @cache
 def _trees(
     max_leaves: int, names: tuple[tuple[str, ...], tuple[str, ...]], style: _Style
-) -> st.SearchStrategy[Recipe]:
-    """Return leaves and trees; now and then the parts of a Boolean are alike, or the same."""
+) -> st.SearchStrategy[recipes.Recipe]:
+    """Return leaves and trees; now and then the parts of a X, or the same."""
     kinds, trees = names
     leaf = _leaves(kinds, style)
     if not trees or max_leaves < 2:
         return leaf
-    pairs = st.builds(alike, leaf, st.sampled_from(PICKS), st.sampled_from(NESTED))
+    pairs = st.builds(
+        recipes.alike, leaf, st.sampled_from(recipes.PICKS), st.sampled_from(recipes.NESTED)
+    )
     often = [name for name in trees for _ in range(1 if name == "intersection" else 2)]
 
-    def extend(parts: st.SearchStrategy[Recipe]) -> st.SearchStrategy[Recipe]:
+    def extend(parts: st.SearchStrategy[recipes.Recipe]) -> st.SearchStrategy[recipes.Recipe]:
         twice = parts.map(lambda part: [part, part])
         few, more = (st.lists(parts, min_size=n, max_size=4) for n in (1, 2))
         some = _mixed((1, few), (3, more), (1, twice), (3, pairs))
-        return st.builds(TreeRecipe, st.sampled_from(often), some)
+        return st.builds(recipes.TreeRecipe, st.sampled_from(often), some)
 
     grown = st.recursive(leaf, extend, max_leaves=max_leaves)
     return grown.filter(lambda recipe: recipe.count() <= max_leaves)
 
 
 @cache
-def _aims(style: _Style) -> st.SearchStrategy[Aim]:
+def _aims(style: _Style) -> st.SearchStrategy[recipes.Aim]:
     index = st.integers(0, 11)
-    spots = st.builds(Spot, index, index, st.sampled_from(ALONG), st.sampled_from(AWAY))
+    spots = st.builds(
+        recipes.Spot, index, index, st.sampled_from(recipes.ALONG), st.sampled_from(recipes.AWAY)
+    )
     free = st.tuples(index | _coordinates(style), _mixed((4, _directions(style)), (1, STANDING)))
     return st.builds(
-        Aim,
+        recipes.Aim,
         spot=spots,
-        turn=st.sampled_from(TURNS),
+        turn=st.sampled_from(recipes.TURNS),
         toward=_mixed((2, st.none()), (1, spots)),
-        back=st.sampled_from(BACK),
-        speed=st.sampled_from(SPEEDS),
+        back=st.sampled_from(recipes.BACK),
+        speed=st.sampled_from(recipes.SPEEDS),
         free=_mixed((5, st.none()), (1, free)),
-        moved=st.sampled_from(MOVED),
+        moved=st.sampled_from(recipes.MOVED),
     )
 
 
-def _ensemble(recipes: tuple[Recipe, ...], aim: Aim, pool: Pool) -> Ensemble:
-    drawn = tuple(make_solid(recipe, pool) for recipe in recipes)
-    return drawn, make_ray(drawn, aim, pool)
+def _ensemble(parts: tuple[recipes.Recipe, ...], aim: recipes.Aim, pool: recipes.Pool) -> Ensemble:
+    drawn = tuple(recipes.make_solid(recipe, pool) for recipe in parts)
+    return drawn, recipes.make_ray(drawn, aim, pool)

@@ -30,14 +30,9 @@ from dataclasses import dataclass
 from itertools import product
 
 Relation = str
-HOLDS: dict[Relation, frozenset[int]] = {
-    "< 0": frozenset({-1}),
-    "= 0": frozenset({0}),
-    "> 0": frozenset({1}),
-    "<= 0": frozenset({-1, 0}),
-    ">= 0": frozenset({0, 1}),
-    "!= 0": frozenset({-1, 1}),
-}
+HOLDS: dict[Relation, set[int]] = {
+    "< 0": {-1}, "= 0": {0}, "> 0": {1}, "<= 0": {-1, 0}, ">= 0": {0, 1}, "!= 0": {-1, 1},
+}  # fmt: skip
 """The signs for which each relation holds."""
 
 Signs = tuple[tuple[str, int], ...]
@@ -63,7 +58,7 @@ class Table(tuple[Row, ...]):
         return super().__new__(cls, rows)
 
     def __init__(self, *rows: Row) -> None:
-        self._first = _Step(self, {})
+        self._next: dict[Signs, Row | str] = {}
 
     def decide(self, sign: Callable[[str], int]) -> tuple[Row, Signs]:
         """Return the row whose condition holds, and the signs that decided it, in the order asked.
@@ -71,40 +66,23 @@ class Table(tuple[Row, ...]):
         `sign` gives the sign (-1, 0, 1) of a quantity, and is asked for no more than is needed.
         Signs that contradict the table's axioms may reach no row: `ArithmeticError`.
         """
-        step, known = self._first, []
-        while step.row is None:
-            found = sign(step.quantity)
-            known.append((step.quantity, found))
-            step = step.after.get(found) or step.then(self, found)
-        return step.row, tuple(known)
+        known: Signs = ()
+        while not isinstance(step := self._next.get(known) or self._after(known), Row):
+            known = (*known, (step, sign(step)))
+        return step, known
 
-
-class _Step:
-    """What follows from some signs: the row that holds, or the quantity that it takes to tell."""
-
-    __slots__ = ("after", "known", "quantity", "row")
-
-    def __init__(self, rows: tuple[Row, ...], known: dict[str, int]) -> None:
-        self.known = known
-        self.row: Row | None = None
-        self.quantity = ""
-        self.after: dict[int, _Step] = {}
-        for row in rows:
+    def _after(self, known: Signs) -> Row | str:
+        """Return, and remember, the row that some signs leave, or the quantity to ask for next."""
+        signs = dict(known)
+        for row in self:
             for quantity, relation in row.condition:
-                if quantity not in known:
-                    self.quantity = quantity
-                    return
-                if known[quantity] not in HOLDS[relation]:
+                if quantity not in signs:
+                    return self._next.setdefault(known, quantity)
+                if signs[quantity] not in HOLDS[relation]:
                     break
             else:
-                self.row = row
-                return
-        raise ArithmeticError(f"no row holds for {known}")
-
-    def then(self, rows: tuple[Row, ...], sign: int) -> _Step:
-        """Return what follows when the quantity turns out to have this sign, and remember it."""
-        self.after[sign] = _Step(rows, {**self.known, self.quantity: sign})
-        return self.after[sign]
+                return self._next.setdefault(known, row)
+        raise ArithmeticError(f"no row holds for {signs}")
 
 
 PROBLEM_1 = Table(
@@ -112,19 +90,11 @@ PROBLEM_1 = Table(
     Row("along-outside", "1 (d,e)", (("vv", "= 0"), ("inside", "< 0")), "{}"),
     Row("miss", "1 (d,e)", (("vv", "!= 0"), ("disc", "< 0")), "{}"),
     Row("behind", "1 (f,g-I,h)", (("vv", "!= 0"), ("disc", ">= 0"), ("t2", "< 0")), "{}"),
-    Row(
-        "from-inside",
-        "1 (f,g-III,j)",
-        (("vv", "!= 0"), ("disc", ">= 0"), ("t2", ">= 0"), ("t1", "< 0")),
-        "{(0, t2)}",
-    ),
-    Row(
-        "through",
-        "1 (f,g-II,i)",
-        (("vv", "!= 0"), ("disc", ">= 0"), ("t2", ">= 0"), ("t1", ">= 0")),
-        "{(t1, t2)}",
-    ),
-)
+    Row("from-inside", "1 (f,g-III,j)",
+        (("vv", "!= 0"), ("disc", ">= 0"), ("t2", ">= 0"), ("t1", "< 0")), "{(0, t2)}"),
+    Row("through", "1 (f,g-II,i)",
+        (("vv", "!= 0"), ("disc", ">= 0"), ("t2", ">= 0"), ("t1", ">= 0")), "{(t1, t2)}"),
+)  # fmt: skip
 """The infinite cylinder."""
 
 PROBLEM_2 = Table(
@@ -176,43 +146,25 @@ _START_0 = {"along-inside", "from-inside"}
 _ENTERS = {"BG", "CF"}
 _Forbids = Callable[[str, str, int, int, int], bool]
 IMPOSSIBLE: tuple[tuple[str, _Forbids], ...] = (
-    (
-        "a = 0 in this row of Problem 1 and c = 0 in this row of Problem 2, so a = c",
-        lambda one, two, ac, bd, mn: one in _START_0 and two not in _ENTERS and ac != 0,
-    ),
-    (
-        "a = 0 in this row of Problem 1 and c > 0 in this row of Problem 2, so a < c",
-        lambda one, two, ac, bd, mn: one in _START_0 and two in _ENTERS and ac != -1,
-    ),
-    (
-        "c = 0 in this row of Problem 2 and a >= 0, so a < c cannot be",
-        lambda one, two, ac, bd, mn: one == "through" and two not in _ENTERS and ac == -1,
-    ),
-    (
-        "b and d are both infinite, so b = d",
-        lambda one, two, ac, bd, mn: one == "along-inside" and two == "AE" and bd != 0,
-    ),
-    (
-        "b is infinite and d is not, so b > d",
-        lambda one, two, ac, bd, mn: one == "along-inside" and two != "AE" and bd != 1,
-    ),
-    (
-        "d is infinite and b is not, so b < d",
-        lambda one, two, ac, bd, mn: one != "along-inside" and two == "AE" and bd != -1,
-    ),
-    (
-        "b = d = infinity and m = 0, so m < n",
-        lambda one, two, ac, bd, mn: one == "along-inside" and two == "AE" and mn != -1,
-    ),
-    (
-        "m and n are the ends of one and the same pair, and no pair has enter > leave",
-        lambda one, two, ac, bd, mn: mn == 1 and not ac == bd != 0,
-    ),
-    (
-        "m = c and n = d, and p != q keeps c < d where both are crossings, so m < n",
-        lambda one, two, ac, bd, mn: two in _ENTERS and ac <= 0 <= bd and mn != -1,
-    ),
-)
+    ("a = 0 in this row of Problem 1 and c = 0 in this row of Problem 2, so a = c",
+     lambda one, two, ac, bd, mn: one in _START_0 and two not in _ENTERS and ac != 0),
+    ("a = 0 in this row of Problem 1 and c > 0 in this row of Problem 2, so a < c",
+     lambda one, two, ac, bd, mn: one in _START_0 and two in _ENTERS and ac != -1),
+    ("c = 0 in this row of Problem 2 and a >= 0, so a < c cannot be",
+     lambda one, two, ac, bd, mn: one == "through" and two not in _ENTERS and ac == -1),
+    ("b and d are both infinite, so b = d",
+     lambda one, two, ac, bd, mn: one == "along-inside" and two == "AE" and bd != 0),
+    ("b is infinite and d is not, so b > d",
+     lambda one, two, ac, bd, mn: one == "along-inside" and two != "AE" and bd != 1),
+    ("d is infinite and b is not, so b < d",
+     lambda one, two, ac, bd, mn: one != "along-inside" and two == "AE" and bd != -1),
+    ("b = d = infinity and m = 0, so m < n",
+     lambda one, two, ac, bd, mn: one == "along-inside" and two == "AE" and mn != -1),
+    ("m and n are the ends of one and the same pair, and no pair has enter > leave",
+     lambda one, two, ac, bd, mn: mn == 1 and not ac == bd != 0),
+    ("m = c and n = d, and p != q keeps c < d where both are crossings, so m < n",
+     lambda one, two, ac, bd, mn: two in _ENTERS and ac <= 0 <= bd and mn != -1),
+)  # fmt: skip
 
 
 def unreachable(one: str, two: str, signs: tuple[int, int, int]) -> str | None:

@@ -12,17 +12,15 @@ import json
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from raycert.cases.case import TIERS, Case, Family
 from raycert.cases.formats import FORMATS, Format
-from raycert.cases.forms import read_ray, read_solid, write_ray, write_solid
+from raycert.cases.forms import Fields, Json, read_ray, read_solid, write_ray, write_solid
 from raycert.cases.model import Refused
 
 FOLDER = Path(__file__).parents[1] / "adopted"
 REASON = "Cases that implementations were found to answer wrong, kept as they were found."
 FIELDS = {"slug", "why", "flags", "tier", "source", "precisions", "solid", "ray"}
-Json = dict[str, Any]
 
 
 class BadAdopted(ValueError):
@@ -89,31 +87,24 @@ def encode(entries: Iterable[Entry]) -> bytes:
 
 
 def read_entry(form: object) -> Entry:
-    if not isinstance(form, dict):
-        raise Refused("case", "is not an object")
-    if set(form) == {"slug", "retired"}:
-        return Retired(_text(form, "slug"), _text(form, "retired"))
-    if set(form) != FIELDS:
+    get = Fields(form, "case")
+    if set(get.form) == {"slug", "retired"}:
+        return Retired(_text(get, "slug"), _text(get, "retired"))
+    if set(get.form) != FIELDS:
         raise Refused("case", f"has not the fields {', '.join(sorted(FIELDS))}")
-    precisions = _texts(form, "precisions")
+    precisions, tier = get.many("precisions", str), get("tier", str)
     for name in precisions:
         if name not in FORMATS:
             raise Refused("case.precisions", f"is not one of {', '.join(FORMATS)}: {name!r:.40}")
     if not precisions:
         raise Refused("case.precisions", "is empty")
-    if form["tier"] not in TIERS:
-        raise Refused("case.tier", f"is not one of {', '.join(TIERS)}: {form['tier']!r:.40}")
+    if tier not in TIERS:
+        raise Refused("case.tier", f"is not one of {', '.join(TIERS)}: {tier!r:.40}")
     narrowest = min((FORMATS[name] for name in precisions), key=lambda fmt: fmt.precision)
-    case = Case(
-        slug=_text(form, "slug"),
-        why=_text(form, "why"),
-        solid=read_solid(form["solid"], "solid", "hex", narrowest),
-        ray=read_ray(form["ray"], "ray", "hex", narrowest),
-        tier=form["tier"],
-        flags=_texts(form, "flags"),
-        source=_text(form, "source"),
-    )
-    return Adopted(case, precisions)
+    solid = read_solid(get.form["solid"], "solid", "hex", narrowest)
+    ray = read_ray(get.form["ray"], "ray", "hex", narrowest)
+    slug, why, source = (_text(get, name) for name in ("slug", "why", "source"))
+    return Adopted(Case(slug, why, solid, ray, tier, get.many("flags", str), source), precisions)
 
 
 def write_entry(entry: Entry) -> Json:
@@ -132,18 +123,11 @@ def write_entry(entry: Entry) -> Json:
     }
 
 
-def _text(form: Json, name: str) -> str:
-    value = form[name]
-    if not isinstance(value, str) or not value:
+def _text(get: Fields, name: str) -> str:
+    text: str = get(name, str)
+    if not text:
         raise Refused(f"case.{name}", "is not a text")
-    return value
-
-
-def _texts(form: Json, name: str) -> tuple[str, ...]:
-    values = form[name]
-    if not isinstance(values, list) or not all(isinstance(value, str) for value in values):
-        raise Refused(f"case.{name}", "is not a list of texts")
-    return tuple(values)
+    return text
 
 
 FAMILIES = families()

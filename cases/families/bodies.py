@@ -92,32 +92,23 @@ def _drums(slug: str, text: str, shape: Node, *known: Pairs) -> tuple[Shot, ...]
 
 ONE, TWO, AT_2 = pair(1, 3), pair(1, 2), touch(2)
 DRUMS = (
-    *_drums(
-        "stack", "two cylinders stacked into one", any_of(drum(0, 4), drum(4, 8)),
+    *_drums("stack", "two cylinders stacked into one", any_of(drum(0, 4), drum(4, 8)),
         ONE, ONE, ONE, ONE, ONE, ONE, ONE, pair(1, 2), AT_2, AT_2),
-    *_drums(
-        "shared-cap", "what two stacked cylinders share", all_of(drum(0, 4), drum(4, 8)),
+    *_drums("shared-cap", "what two stacked cylinders share", all_of(drum(0, 4), drum(4, 8)),
         MISS, ONE, MISS, AT_2, AT_2, AT_2, AT_2, touch(1), MISS, AT_2),
-    *_drums(
-        "stack-less", "a cylinder less the one on it", less(drum(0, 4), drum(4, 8)),
+    *_drums("stack-less", "a cylinder less the one on it", less(drum(0, 4), drum(4, 8)),
         ONE, MISS, MISS, TWO, TWO, TWO, TWO, MISS, AT_2, MISS),
-    *_drums(
-        "top-off", "a cylinder less its upper half", less(drum(0, 8), drum(4, 8)),
+    *_drums("top-off", "a cylinder less its upper half", less(drum(0, 8), drum(4, 8)),
         ONE, MISS, MISS, TWO, TWO, TWO, TWO, MISS, AT_2, MISS),
-    *_drums(
-        "sliced", "a cylinder less a slab at its cap", less(drum(0, 8), ABOVE),
+    *_drums("sliced", "a cylinder less a slab at its cap", less(drum(0, 8), ABOVE),
         ONE, MISS, MISS, TWO, TWO, TWO, TWO, MISS, AT_2, MISS),
-    *_drums(
-        "waist", "a cylinder less its middle", less(drum(0, 8), drum(3, 5)),
+    *_drums("waist", "a cylinder less its middle", less(drum(0, 8), drum(3, 5)),
         ONE, MISS, ONE, *(spans((1, "7/4"), ("9/4", 3)),) * 4, spans(("5/4", 2)), AT_2, MISS),
-    *_drums(
-        "plug", "an infinite cylinder less a part of it", less(WELL, drum(4, 8)),
+    *_drums("plug", "an infinite cylinder less a part of it", less(WELL, drum(4, 8)),
         ONE, MISS, MISS, *(spans((0, 2), (3, None)),) * 3, TWO, pair(2, 3), AT_2, MISS),
-    *_drums(
-        "respelled", "a tube cut by a slab, less that cylinder",
+    *_drums("respelled", "a tube cut by a slab, less that cylinder",
         less(all_of(WELL, ABOVE), drum(4, 8)), *(MISS,) * 10),
-    *_drums(
-        "turned", "a cylinder and itself turned upside down",
+    *_drums("turned", "a cylinder and itself turned upside down",
         all_of(drum(0, 8), rod((0, 0, 8), (0, 0, 0), 4)),
         ONE, ONE, ONE, ONE, ONE, ONE, ONE, pair(1, 2), AT_2, AT_2),
 )  # fmt: skip
@@ -287,11 +278,9 @@ NESTS = (
     *_nest("balls", "a sphere in a sphere", ball(8), ball(4)),
     *_nest("rod-in-ball", "a cylinder in a sphere", ball(8), rod((-4, 0, 0), (4, 0, 0), 4)),
     *_nest("ball-in-rod", "a sphere in a cylinder", rod((0, 0, -8), (0, 0, 8), 8), ball(4)),
-    *_nest(
-        "rods", "a cylinder in a cylinder",
+    *_nest("rods", "a cylinder in a cylinder",
         rod((0, 0, -8), (0, 0, 8), 8), rod((-4, 0, 0), (4, 0, 0), 2)),
-    *_nest(
-        "slabs", "a cylinder in a slab", layer((-8, 0, 0), (8, 0, 0)),
+    *_nest("slabs", "a cylinder in a slab", layer((-8, 0, 0), (8, 0, 0)),
         rod((0, 0, -4), (0, 0, 4), 4)),
 )  # fmt: skip
 

@@ -2,6 +2,7 @@
 
 import struct
 from collections.abc import Iterator
+from dataclasses import fields
 from math import inf
 from pathlib import Path
 from typing import Any
@@ -111,9 +112,9 @@ def plain(solid: Any) -> tuple[Any, ...]:
     names = {HalfSpace: "half_space", InfiniteCylinder: "infinite_cylinder"}
     name = names.get(type(solid), type(solid).__name__.lower())
     values: list[Any] = []
-    for field in solid.__slots__:
-        value = getattr(solid, field)
-        if field == "of":
+    for field in fields(solid):
+        value = getattr(solid, field.name)
+        if field.name == "of":
             values += [plain(part) for part in value]
         else:
             values += value if isinstance(value, tuple) else [value]
