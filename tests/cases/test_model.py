@@ -15,7 +15,6 @@ from raycert.cases.model import (
     Cylinder,
     Difference,
     HalfSpace,
-    InfiniteCylinder,
     Ray,
     Refused,
     Slab,
