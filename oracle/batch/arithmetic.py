@@ -17,8 +17,10 @@ import numpy as np
 Number = Any
 """A float, or an array of them: one per lane."""
 Pair = tuple[Number, Number]
-Singles = tuple[Number, Number, Number]
-Triple = tuple[Pair, Pair, Pair]
+Singles = tuple[Number, ...]
+"""A vector: three numbers."""
+Triple = tuple[Pair, ...]
+"""A vector of three pairs."""
 
 SPLITTER = 134217729.0
 """2^27 + 1 [Dekker 1971]."""
@@ -147,6 +149,16 @@ def cross_scaled(a: Triple, b: Singles) -> Triple:
 def heads(a: Triple) -> Singles:
     """Return the leading doubles."""
     return a[0][0], a[1][0], a[2][0]
+
+
+def minus(u: Singles, p: Singles) -> Singles:
+    """Return u - p, rounded."""
+    return u[0] - p[0], u[1] - p[1], u[2] - p[2]
+
+
+def offset(u: Singles, p: Singles) -> Triple:
+    """Return u - p exactly."""
+    return two_sum(u[0], -p[0]), two_sum(u[1], -p[1]), two_sum(u[2], -p[2])
 
 
 def size(a: Singles) -> Number:

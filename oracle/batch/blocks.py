@@ -25,6 +25,9 @@ from raycert.oracle.exact.intervals import expected
 from raycert.oracle.exact.trace import trace
 
 BLOCK = 65536
+Counts = NDArray[np.intp]
+Columns = tuple[Counts, Floats, Floats]
+"""Pairs of many lanes: the lane of each, or their number in each; enter; leave."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +39,7 @@ class Batch:
     fast one did not, or why a leaf has no fast lane.
     """
 
-    offsets: NDArray[np.intp]
+    offsets: Counts
     enter: Floats
     leave: Floats
     leaves: dict[str, int]
@@ -45,13 +48,12 @@ class Batch:
     reason: str = ""
 
     @property
-    def counts(self) -> NDArray[np.intp]:
-        """Return the number of pairs of each lane."""
+    def counts(self) -> Counts:
+        """The number of pairs of each lane."""
         return np.diff(self.offsets)
 
     @property
     def rungs(self) -> dict[str, dict[str, int]]:
-        """Return both counts."""
         return {"leaves": self.leaves, "lanes": self.lanes}
 
     def pairs(self, lane: int) -> Numbers:
@@ -99,12 +101,15 @@ def trace_batch(
     tracer = Blocks(solid, fmt, chosen)
     with np.errstate(all="ignore"):
         parts = [tracer.block(u[i : i + block], v[i : i + block]) for i in range(0, len(u), block)]
-    counts = np.concatenate([np.zeros(1, np.intp), *(part[0] for part in parts)])
+    counts, enter, leave = (
+        np.concatenate([np.zeros(n, kind), *(part[i] for part in parts)])
+        for i, (n, kind) in enumerate([(1, np.intp), (0, float), (0, float)])
+    )
     reasons = [chosen.reason, *(leaf.reason for leaf in tracer.plans.values())]
     return Batch(
         np.cumsum(counts),
-        np.concatenate([np.zeros(0), *(part[1] for part in parts)]),
-        np.concatenate([np.zeros(0), *(part[2] for part in parts)]),
+        enter,
+        leave,
         dict(zip(RUNGS, tracer.leaf_rungs.tolist(), strict=True)),
         dict(zip(RUNGS, tracer.lane_rungs.tolist(), strict=True)),
         chosen.name,
@@ -122,33 +127,32 @@ def _vectors(rows: ArrayLike, name: str) -> Floats:
 
 
 class Blocks:
-    """A solid prepared for blocks of rays, and the counts of the rungs."""
+    """A solid prepared for blocks of rays, each leaf once, and the counts of the rungs."""
 
     def __init__(self, solid: Solid, fmt: Format, engine: Engine) -> None:
-        """LeafPlan each different leaf once."""
         self.solid, self.fmt, self.engine = solid, fmt, engine
         self.plans: dict[Leaf, LeafPlan] = {leaf: plan(leaf) for _, leaf in leaves(solid)}
         self.leaf_rungs = np.zeros(len(RUNGS), np.intp)
         self.lane_rungs = np.zeros(len(RUNGS), np.intp)
 
-    def block(self, u: Floats, v: Floats) -> tuple[NDArray[np.intp], Floats, Floats]:
+    def block(self, u: Floats, v: Floats) -> Columns:
         """Return the number of pairs of each lane, and all pairs in order."""
         rays = np.empty((6, len(u)))
         rays[:3], rays[3:] = u.T, v.T
         lists, top = self._solve(self.solid, rays)
-        lane, enter, leave = lists.lane, lists.enter, lists.leave
+        pairs = lists.lane, lists.enter, lists.leave
         (left,) = np.nonzero(lists.open)
         if len(left):
             top = top.copy()
             top[left] = INTEGER
-            sure = ~lists.open[lane]
-            lane, enter, leave = lane[sure], enter[sure], leave[sure]
+            sure = ~lists.open[lists.lane]
+            pairs = lists.lane[sure], lists.enter[sure], lists.leave[sure]
         self.lane_rungs += tally(top)
         if self.fmt is BINARY32:
-            lane, enter, leave = narrowed(lane, enter, leave)
+            pairs = narrowed(*pairs)
         if len(left):
-            lane, enter, leave = self._with_integers(u, v, left, (lane, enter, leave))
-        return np.bincount(lane, minlength=len(u)), enter, leave
+            pairs = self._with_integers(u, v, left, pairs)
+        return np.bincount(pairs[0], minlength=len(u)), *pairs[1:]
 
     def _solve(self, solid: Solid, rays: Floats) -> tuple[Lists, Codes]:
         """Return the lists of all lanes, and the highest rung that each took."""
@@ -156,49 +160,41 @@ class Blocks:
             parts = [self._solve(part, rays) for part in solid.of]
             top = np.maximum.reduce([rungs for _, rungs in parts])
             return combine(solid, [lists for lists, _ in parts]), top
-        found = self._leaf(self.plans[solid], rays)
-        self.leaf_rungs += tally(found.rung)
-        (lane,) = np.nonzero(found.state == HIT)
-        lists = Lists(lane, found.enter[lane], found.leave[lane], found.state == UNSURE)
-        return lists, found.rung
+        answer = self._leaf(self.plans[solid], rays)
+        self.leaf_rungs += tally(answer.rung)
+        (lane,) = np.nonzero(answer.state == HIT)
+        lists = Lists(lane, answer.enter[lane], answer.leave[lane], answer.state == UNSURE)
+        return lists, answer.rung
 
     def _leaf(self, leaf: LeafPlan, rays: Floats) -> Outcomes:
         """Return what the fast rungs decide; the rung of an open lane is `INTEGER`."""
-        narrow = self.fmt is BINARY32
-        found = self.engine.leaf_block(leaf, rays)
-        if narrow:
-            set_aside(found)
-        (at,) = np.nonzero(found.state == UNSURE)
+        apart = set_aside if self.fmt is BINARY32 else lambda answer: None
+        answer = self.engine.leaf_block(leaf, rays)
+        apart(answer)
+        (at,) = np.nonzero(answer.state == UNSURE)
         if len(at) and not leaf.reason and self.engine.trusted:
             lanes = Lanes.of(leaf, rays.take(at, axis=1))
             more = rational(leaf, lanes)
-            if narrow:
-                set_aside(more)
-            more.state[~lanes.held] = UNSURE
-            found.put(at, more)
-        found.rung[found.state == UNSURE] = INTEGER
-        return found
+            apart(more)
+            more.state[~lanes.in_range] = UNSURE
+            answer.put(at, more)
+        answer.rung[answer.state == UNSURE] = INTEGER
+        return answer
 
-    def _with_integers(
-        self,
-        u: Floats,
-        v: Floats,
-        left: NDArray[np.intp],
-        sure: tuple[NDArray[np.intp], Floats, Floats],
-    ) -> tuple[NDArray[np.intp], Floats, Floats]:
+    def _with_integers(self, u: Floats, v: Floats, left: Counts, sure: Columns) -> Columns:
         """Return all pairs in order of the lanes, those of open lanes from the scalar oracle."""
         solve = scalar(self.solid, self.fmt)
-        found = [(i, a, b) for i in left.tolist() for a, b in solve(u[i].tolist(), v[i].tolist())]
-        lane = np.concatenate([sure[0], np.array([i for i, _, _ in found], np.intp)])
+        more = [(i, *pair) for i in left.tolist() for pair in solve(u[i].tolist(), v[i].tolist())]
+        columns = np.array(more, float).reshape(-1, 3).T
+        lane = np.concatenate([sure[0], columns[0].astype(np.intp)])
         order = np.argsort(lane, kind="stable")
-        enter = np.concatenate([sure[1], np.array([a for _, a, _ in found], float)])
-        leave = np.concatenate([sure[2], np.array([b for _, _, b in found], float)])
-        return lane[order], enter[order], leave[order]
+        enter, leave = (np.concatenate([sure[i], columns[i]])[order] for i in (1, 2))
+        return lane[order], enter, leave
 
 
-def tally(rungs: Codes) -> NDArray[np.intp]:
+def tally(rungs: Codes) -> Counts:
     """Return how often each rung occurs."""
-    return np.array([np.count_nonzero(rungs == i) for i in range(len(RUNGS))])
+    return np.bincount(rungs, minlength=len(RUNGS))
 
 
 def scalar(solid: Solid, fmt: Format) -> Callable[[list[float], list[float]], Numbers]:

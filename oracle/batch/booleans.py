@@ -54,24 +54,21 @@ def combine(tree: Tree, parts: list[Lists]) -> Lists:
 
 
 def _inside(tree: Tree, parts: int, first: NDArray[np.intp], others: NDArray[np.intp]) -> Mask:
-    """Tell after which events a lane is inside: a part's pairs are disjoint, and count 0 or 1."""
-    inside: Mask
-    match tree:
-        case Union():
-            inside = first + others > 0
-        case Intersection():
-            inside = first + others == parts
-        case Difference():
-            inside = (first > 0) & (others == 0)
-    return inside
+    """Return after which events a lane is inside: a part's pairs are disjoint, and count 0 or 1."""
+    inside: dict[type[Tree], Mask] = {
+        Union: first + others > 0,
+        Intersection: first + others == parts,
+        Difference: (first > 0) & (others == 0),
+    }
+    return inside[type(tree)]
 
 
-def set_aside(found: Outcomes) -> None:
-    """Make what is found round to binary32 as the exact endpoints do, or not decided."""
-    hit = found.state == HIT
-    for value, side in ((found.enter, found.before), (found.leave, found.after)):
+def set_aside(answer: Outcomes) -> None:
+    """Make an answer round to binary32 as the exact endpoints do, or not decided."""
+    hit = answer.state == HIT
+    for value, side in ((answer.enter, answer.before), (answer.leave, answer.after)):
         value[:], clear = aside(value, side)
-        found.state[hit & ~clear] = UNSURE
+        answer.state[hit & ~clear] = UNSURE
 
 
 def aside(value: Floats, side: Floats) -> tuple[Floats, Mask]:

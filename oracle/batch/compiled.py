@@ -19,11 +19,10 @@ import numpy as np
 
 from raycert.oracle.batch import arithmetic, chunks, decide, formulas
 from raycert.oracle.batch.lanes import UNSURE, Floats, Outcomes
-from raycert.oracle.batch.leaf import BALL, CAPPED_BALL, CAPPED_WALL, WALL, LeafPlan
+from raycert.oracle.batch.leaf import LeafPlan
 
 SOURCES: tuple[ModuleType, ...] = (arithmetic, formulas, decide, chunks)
-CURVED = {BALL: 1, CAPPED_BALL: 1, WALL: 2, CAPPED_WALL: 2}
-OUTER = ("run", "probe", "load", "screen", "solve", "join", *(n for n in vars(chunks) if "_" in n))
+OUTER = ("run", "probe", "load", "screen", "solve", "join")
 """What is called a chunk at a time; all else is part of its caller."""
 
 
@@ -50,45 +49,33 @@ def _functions() -> dict[str, Any]:
     config: Any = numba.core.config
     if config.DISABLE_JIT:
         raise ImportError("NUMBA_DISABLE_JIT is set")
-    done: dict[FunctionType, Any] = {}
+    done: dict[FunctionType, Any] = _replaced(numba)
     before = config.CACHE_DIR
     config.CACHE_DIR = _writable(cache_folder())
     try:
         for module in SOURCES:
-            names = vars(module) | {
-                name: done[function]
-                for name, function in vars(module).items()
-                if isinstance(function, FunctionType) and function in done
-            }
-            for name, function in list(names.items()):
-                if isinstance(function, FunctionType) and function.__module__ == module.__name__:
-                    names[name] = done[function] = _compiled(numba, function, names)
+            names = dict(vars(module))
+            for name, function in vars(module).items():
+                if isinstance(function, FunctionType):
+                    if function not in done and function.__module__ == module.__name__:
+                        done[function] = _compiled(numba, function, names)
+                    names[name] = done.get(function, function)
     finally:
         config.CACHE_DIR = before
     return {function.__name__: done[function] for function in done if function.__name__ in OUTER}
 
 
 def _compiled(numba: Any, function: FunctionType, names: dict[str, Any]) -> Any:
-    """Return a function compiled that finds what it calls among the names, or what replaces it."""
-    if function in (arithmetic.larger, arithmetic.choose):
-        return _replaced(numba)[function.__name__]
-    if function is arithmetic.two_prod and _has_fma(numba.core.config):
-        return _two_prod_by_fma()
-    outer = function.__name__ in OUTER
-    kept = bool(numba.core.config.CACHE_DIR) and function.__name__ in ("run", "probe")
-    options = {"error_model": "numpy", "forceinline": not outer, "cache": kept}
-    return numba.njit(**options)(_rebound(function, names))
+    """Return the same code compiled, which finds what it calls among the names."""
+    name = function.__name__
+    rebound = FunctionType(function.__code__, names, name)
+    rebound.__module__, rebound.__qualname__ = function.__module__, function.__qualname__
+    cache = bool(numba.core.config.CACHE_DIR) and name in ("run", "probe")
+    options = {"error_model": "numpy", "forceinline": name not in OUTER, "cache": cache}
+    return numba.njit(**options)(rebound)
 
 
-def _rebound(function: FunctionType, names: dict[str, Any]) -> FunctionType:
-    """Return the same code, which finds what it calls among the names."""
-    rebound = FunctionType(function.__code__, names, function.__name__)
-    rebound.__module__ = function.__module__
-    rebound.__qualname__ = function.__qualname__
-    return rebound
-
-
-def _replaced(numba: Any) -> dict[str, Any]:
+def _replaced(numba: Any) -> dict[Any, Any]:
     """Return what is computed otherwise than as written, with the same bits."""
 
     @numba.njit(forceinline=True)  # type: ignore[untyped-decorator]
@@ -99,7 +86,10 @@ def _replaced(numba: Any) -> dict[str, Any]:
     def choose(where: Any, a: Any, b: Any) -> Any:
         return a if where else b
 
-    return {"larger": larger, "choose": choose}
+    others = {arithmetic.larger: larger, arithmetic.choose: choose}
+    if _has_fma(numba.core.config):
+        others[arithmetic.two_prod] = _two_prod_by_fma()
+    return others
 
 
 def _writable(folder: Path) -> str:
@@ -112,7 +102,7 @@ def _writable(folder: Path) -> str:
 
 
 def _has_fma(config: Any) -> bool:
-    """Tell whether the code is made for this processor, and it has a fused multiply-add."""
+    """Whether the code is made for this processor, and it has a fused multiply-add."""
     from llvmlite import binding
 
     if config.CPU_NAME or config.CPU_FEATURES:
@@ -155,6 +145,5 @@ def leaf_block(plan: LeafPlan, rays: Floats) -> Outcomes:
     if plan.reason:
         return Outcomes.unsure(n)
     state, rung, ends = np.full(n, UNSURE, np.uint8), np.zeros(n, np.uint8), np.empty((4, n))
-    kind = CURVED.get(plan.kind, 0)
-    compiled()(rays, plan.constants, kind, plan.planes, state, rung, ends)
+    compiled()(rays, plan.constants, plan.kind, plan.planes, state, rung, ends)
     return Outcomes(state, rung, *ends)

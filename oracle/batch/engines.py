@@ -25,54 +25,45 @@ INPUT = (1 + 2.0**-30, 2.0**-53, 2.0**-1074, 3.0, 1e300, 1 + 2.0**-52)
 Probe = Callable[[Any], Sequence[float]]
 
 
-def wanted() -> list[tuple[str, float, float]]:
+def _wanted() -> list[tuple[str, float, float]]:
     """Return for each result of `probe` what it shows, and the two numbers it lies between."""
     one, large = Fraction(INPUT[0]), Fraction(INPUT[4])
     square = float(one * one)
-    rest = float(one * one - Fraction(square))
-    inverse = Fraction(1 / INPUT[4])
-    error = float((large * inverse - Fraction(INPUT[4] * (1 / INPUT[4]))) * 2**60)
+    inverse = 1 / INPUT[4]
+    error = float((large * Fraction(inverse) - Fraction(INPUT[4] * inverse)) * 2**60)
     tiny = 64 * 2.0**-106
-    exact = [
-        ("a product is rounded to nearest", square),
-        ("the error of a product", rest),
-        ("a product and a difference are two roundings", square - (1.0 + 2.0**-29)),
-        ("a tie rounds to even", 1.0),
-        ("the error of a sum", INPUT[1]),
-        ("a tie rounds to even, from above", 0.0),
-        ("a tie rounds to even, upwards", 2.0**-51),
-        ("a negative tie rounds to even", 0.0),
-        ("subnormal numbers are kept", INPUT[2]),
-        ("subnormal results are kept", INPUT[2]),
-        ("overflow is infinite", inf),
-        ("the error of a product of extremes", error),
-    ]
+    exact = {
+        "a product is rounded to nearest": square,
+        "the error of a product": float(one * one - Fraction(square)),
+        "a product and a difference are two roundings": square - (1.0 + 2.0**-29),
+        "a tie rounds to even": 1.0,
+        "the error of a sum": INPUT[1],
+        "a tie rounds to even, from above": 0.0,
+        "a tie rounds to even, upwards": 2.0**-51,
+        "a negative tie rounds to even": 0.0,
+        "subnormal numbers are kept": INPUT[2],
+        "subnormal results are kept": INPUT[2],
+        "overflow is infinite": inf,
+        "the error of a product of extremes": error,
+    }
     bounded = [("a double-double quotient", -tiny, tiny), ("a double-double root", -tiny, tiny)]
-    singles = [("binary32 rounds to nearest", 0.0), ("a tie of binary32 rounds to even", 1.0)]
-    return [
-        *((text, x, x) for text, x in exact),
-        *bounded,
-        *((text, x, x) for text, x in singles),
-    ]
+    singles = {"binary32 rounds to nearest": 0.0, "a tie of binary32 rounds to even": 1.0}
+    first, last = ([(text, x, x) for text, x in some.items()] for some in (exact, singles))
+    return [*first, *bounded, *last]
 
 
-WANTED = tuple(wanted())
+WANTED = tuple(_wanted())
 
 
 def untrustworthy(run: Probe = probe) -> str:
     """Return what a probe finds wrong, or an empty text."""
+    rows = np.array([INPUT] * 16).T if run is probe else np.array(INPUT)  # lanes of NumPy, or one
     with np.errstate(all="ignore"):
-        results = [float(np.asarray(x).ravel()[0]) for x in run(_inputs(run))]
+        results = [float(np.asarray(x).ravel()[0]) for x in run(rows)]
     for (text, low, high), x in zip(WANTED, results, strict=True):
         if not low <= x <= high:
             return f"{text}: {x!r}"
     return ""
-
-
-def _inputs(run: Probe) -> Any:
-    """Return the input as NumPy's lanes, or as the compiled ones'."""
-    rows = np.array([INPUT] * 16).T
-    return rows if run is probe else rows[:, 0].copy()
 
 
 LeafBlock = Callable[[LeafPlan, Floats], Outcomes]
@@ -124,10 +115,5 @@ def _numba() -> Engine:
 def _checked(name: str, run: LeafBlock, fault: str) -> Engine:
     if not fault:
         return Engine(name, run)
-    return Engine(name, _nothing, False, f"{name}: {fault}; every lane in integers")
-
-
-def _nothing(plan: LeafPlan, rays: Floats) -> Outcomes:
-    """Decide nothing."""
-    del plan
-    return Outcomes.unsure(rays.shape[1])
+    reason = f"{name}: {fault}; every lane in integers"
+    return Engine(name, lambda plan, rays: Outcomes.unsure(rays.shape[1]), False, reason)

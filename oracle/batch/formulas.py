@@ -116,28 +116,30 @@ def dot_plain(a: Singles, b: Singles) -> Number:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def gap_ball(y: Singles, v: Singles, rr: Number) -> tuple[Any, ...]:
-    """Return (G, its bound) in float64 of a sphere, y rounded."""
+def gap_ball(y: Singles, ym: Number, v: Singles, vm: Number, rr: Number) -> tuple[Any, ...]:
+    """Return (G, its bound) in float64 of a sphere; y, rounded, and v with their sizes."""
     k = cross_plain(y, v)
-    ek, km = cross_bound(U, size(y), size(v)), size(k)
-    aa, kk, vm = dot_plain(v, v), dot_plain(k, k), size(v)
+    ek, km = cross_bound(U, ym, vm), size(k)
+    aa, kk = dot_plain(v, v), dot_plain(k, k)
     bound = less_bound(U, rr * aa, rr * square_bound(U, vm, 0.0), kk, square_bound(U, km, ek))
     return rr * aa - kk, bound * SLACK
 
 
-def gap_wall(y: Singles, v: Singles, w: Singles, wm: float, rr: Number) -> tuple[Any, ...]:
-    """Return (a, its bound, G, its bound) in float64 of a cylinder, y and w rounded."""
-    a = cross_plain(v, w)
-    ea, am, ym = cross_bound(U, size(v), wm), size(a), size(y)
+def gap_wall(
+    y: Singles, ym: Number, a: Singles, am: Number, ea: Number, rr: Number
+) -> tuple[Any, ...]:
+    """Return (G, its bound) in float64 of a cylinder; y rounded, a within ea, and their sizes."""
     aa, det = dot_plain(a, a), abs(dot_plain(y, a))
     ed = dot_bound(U, ym, 0.0, am, ea)
     bound = less_bound(U, rr * aa, rr * square_bound(U, am, ea), det * det, ed * (2.0 * det + ed))
-    return a, ea, rr * aa - det * det, bound * SLACK
+    return rr * aa - det * det, bound * SLACK
 
 
-def start_plain(a: Singles, ea: Number, g: Singles, eg: Number, cap: Number) -> tuple[Any, ...]:
-    """Return (B, its bound, C, its bound) in float64; `cap` is R."""
-    am, gm, gg = size(a), size(g), dot_plain(g, g)
+def start_plain(
+    a: Singles, am: Number, ea: Number, g: Singles, gm: Number, eg: Number, cap: Number
+) -> tuple[Any, ...]:
+    """Return (B, its bound, C, its bound) in float64 from a, g, sizes and bounds; `cap` is R."""
+    gg = dot_plain(g, g)
     return (
         dot_plain(a, g),
         dot_bound(U, am, ea, gm, eg) * SLACK,

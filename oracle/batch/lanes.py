@@ -1,33 +1,33 @@
 """The lanes of a block in NumPy: in the units of a leaf's plan, and what becomes of each.
 
-`screen_*` is the float64 rung, `solve_*` the double-double one. Lanes that a rung has decided are
-left out of the next, so that a miss costs little. `chunks` takes the same steps in the same order,
-compiled.
+Lanes that a rung has decided are left out of the next, so that a miss costs little. `chunks` takes
+the same steps in the same order, compiled.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from raycert.oracle.batch.arithmetic import Singles, Triple, size, two_sum
+from raycert.oracle.batch.arithmetic import Singles
 from raycert.oracle.batch.decide import (
     LEAST,
     MOST,
-    behind_ball,
-    behind_wall,
-    curved,
-    half_space,
     joined,
-    passed_half_space,
-    passed_slab,
-    slab,
+    screen_ball,
+    screen_half_space,
+    screen_slab,
+    screen_wall,
+    solve_ball,
+    solve_half_space,
+    solve_slab,
+    solve_wall,
 )
-from raycert.oracle.batch.formulas import ball, gap_ball, gap_wall, wall
-from raycert.oracle.batch.leaf import CAPPED_WALL, PLANES, WALL, LeafPlan
+from raycert.oracle.batch.leaf import ALL, BALL, WALL, LeafPlan
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -67,7 +67,7 @@ class Outcomes:
 
     @classmethod
     def of(cls, ends: Any, rung: int) -> Outcomes:
-        """Return what `decide` returns, as found on a rung."""
+        """Return what `decide` returns, decided on a rung."""
         state = np.asarray(ends[0]).astype(np.uint8)
         return cls(state, np.full(len(state), rung, np.uint8), *ends[1:])
 
@@ -78,11 +78,11 @@ class Outcomes:
         return state, self.enter, self.leave, self.before, self.after
 
     def put(self, at: Any, other: Outcomes) -> None:
-        """Write what another has found of some lanes."""
+        """Write what another says of some lanes."""
         for name in self.__slots__:
             getattr(self, name)[at] = getattr(other, name)
 
-    def mark(self, at: Any, state: int, rung: int, leave: float = 0.0) -> None:
+    def mark(self, at: Any, state: Any, rung: int, leave: Any = 0.0) -> None:
         """Write of some lanes that they miss, or hit from 0 to `leave`, exactly."""
         self.state[at], self.rung[at] = state, rung
         self.enter[at], self.leave[at] = 0.0, leave
@@ -93,12 +93,12 @@ class Outcomes:
 class Lanes:
     """Scaled rays: rows 0 to 2 the origin, 3 to 5 the direction; t is `back` times the scaled t.
 
-    `held`: all of the ray is in the range of `formulas`, and scaling it was exact.
+    `in_range`: all of the ray is in the range of `formulas`, and scaling it was exact.
     """
 
     rows: Floats
     back: Any
-    held: Mask
+    in_range: Mask
 
     @classmethod
     def of(cls, plan: LeafPlan, rays: Floats) -> Lanes:
@@ -118,139 +118,62 @@ class Lanes:
             back *= factor
         sizes = np.abs(rows)
         inside = ((sizes >= plan.low) & (sizes <= plan.high)) | (rays == 0)
-        held = inside.all(axis=0) & (back >= LEAST) & (back < MOST)
-        return cls(rows, back, held)
+        in_range = inside.all(axis=0) & (back >= LEAST) & (back < MOST)
+        return cls(rows, back, in_range)
 
     def take(self, at: NDArray[np.intp]) -> Lanes:
         """Return the lanes with these numbers."""
-        return Lanes(self.rows.take(at, axis=1), self.back[at], self.held[at])
+        return Lanes(self.rows.take(at, axis=1), self.back[at], self.in_range[at])
 
-    @property
-    def v(self) -> tuple[Floats, Floats, Floats]:
-        """Return the direction."""
-        return self.rows[3], self.rows[4], self.rows[5]
+    def ray(
+        self, plan: LeafPlan, keep: tuple[bool, ...] = ALL
+    ) -> tuple[Singles, Singles, list[Singles]]:
+        """Return u, v and the points of a leaf, with 0 for the coordinates that are not kept."""
+        u, v, p, q = (
+            tuple(x if k else 0.0 * x for x, k in zip(a, keep, strict=True))
+            for a in (self.rows[:3], self.rows[3:], *plan.points)
+        )
+        return u, v, [p, q]
 
 
-ALL = (True, True, True)
 PART = 8192
 """So many lanes at a time stay in a processor's cache."""
+CURVED = {BALL: (screen_ball, solve_ball), WALL: (screen_wall, solve_wall)}
+FLAT = {1: (screen_half_space, solve_half_space), 2: (screen_slab, solve_slab)}
+Face = tuple[Callable[..., Any], Callable[..., Any], tuple[bool, ...]]
 
 
-def heads(lanes: Lanes, point: tuple[float, float, float], keep: tuple[bool, ...]) -> Singles:
-    """Return u - point rounded, with 0 for the coordinates that are not kept."""
-    zero = None if all(keep) else np.zeros(lanes.rows.shape[1])
-    x, y, z = (lanes.rows[i] - point[i] if keep[i] else zero for i in range(3))
-    return x, y, z
-
-
-def offset(lanes: Lanes, point: tuple[float, float, float], keep: tuple[bool, ...]) -> Triple:
-    """Return u - point exactly, with 0 for the coordinates that are not kept."""
-    zero = None if all(keep) else np.zeros(lanes.rows.shape[1])
-    x, y, z = (two_sum(lanes.rows[i], -point[i]) if keep[i] else (zero, zero) for i in range(3))
-    return x, y, z
-
-
-def speed(lanes: Lanes, keep: tuple[bool, ...]) -> Singles:
-    """Return the direction, with 0 for the coordinates that are not kept."""
-    x, y, z = (a if kept else np.zeros_like(a) for a, kept in zip(lanes.v, keep, strict=True))
-    return x, y, z
-
-
-def tilted(plan: LeafPlan) -> bool:
-    """Tell whether the curved face has an axis."""
-    return plan.kind in (WALL, CAPPED_WALL)
-
-
-def axis(plan: LeafPlan) -> Singles:
-    """Return the leading doubles of the axis or normal."""
-    return plan.w[0][0], plan.w[1][0], plan.w[2][0]
-
-
-def screen_curved(plan: LeafPlan, lanes: Lanes) -> Mask:
-    """Return the lanes that certainly miss the curved face: D < 0, or B > 0 and C > 0."""
-    y, v = heads(lanes, plan.first, plan.keep), speed(lanes, plan.keep)
-    if tilted(plan):
-        a, ea, gap, bound = gap_wall(y, v, axis(plan), plan.size, plan.rr[0])
-    else:
-        gap, bound = gap_ball(y, v, plan.rr[0])
-    missed: Mask = gap < -bound
-    (at,) = np.nonzero(~missed)
-    y = (y[0][at], y[1][at], y[2][at])
-    if tilted(plan):
-        a = (a[0][at], a[1][at], a[2][at])
-        missed[at] = behind_wall(a, ea[at], y, axis(plan), plan.size, plan.cap[0])
-    else:
-        missed[at] = behind_ball((v[0][at], v[1][at], v[2][at]), y, plan.cap[0])
-    return missed
-
-
-def solve_curved(plan: LeafPlan, lanes: Lanes) -> Outcomes:
-    """Return what pairs of doubles decide of the curved face."""
-    y, v = offset(lanes, plan.first, plan.keep), speed(lanes, plan.keep)
-    if tilted(plan):
-        terms = wall(y, v, plan.w, plan.size, plan.rr, plan.cap)
-    else:
-        terms = ball(y, v, plan.rr)
-    return Outcomes.of(curved(terms, plan.root_w, lanes.back, size(v)), PAIR)
-
-
-def screen_planes(plan: LeafPlan, lanes: Lanes) -> tuple[Mask, Mask]:
-    """Return the lanes that certainly miss, and those that are inside and never leave."""
-    y, n = heads(lanes, plan.second, ALL), axis(plan)
-    if plan.planes == 1:
-        state = passed_half_space(y, lanes.v, n, plan.size)
-        return state == MISS, state == HIT
-    missed = passed_slab(y, heads(lanes, plan.first, ALL), lanes.v, n, plan.size)
-    return missed, np.zeros_like(missed)
-
-
-def solve_planes(plan: LeafPlan, lanes: Lanes) -> Outcomes:
-    """Return what pairs of doubles decide of a half-space or slab."""
-    y = offset(lanes, plan.second, ALL)
-    if plan.planes == 1:
-        return Outcomes.of(half_space(y, lanes.v, plan.w, plan.size, lanes.back), PAIR)
-    x = offset(lanes, plan.first, ALL)
-    return Outcomes.of(slab(y, x, lanes.v, plan.w, plan.size, lanes.back), PAIR)
+def faces(plan: LeafPlan) -> list[Face]:
+    """Return both rungs of the curved face and of the planes, and the coordinates that matter."""
+    curved, flat = CURVED.get(plan.kind), FLAT.get(plan.planes)
+    return [(*rungs, keep) for rungs, keep in ((curved, plan.keep), (flat, ALL)) if rungs]
 
 
 def leaf_block(plan: LeafPlan, rays: Floats) -> Outcomes:
     """Return what both rungs decide of a block of rays, given as six rows."""
-    found = Outcomes.unsure(rays.shape[1])
+    outcomes = Outcomes.unsure(rays.shape[1])
     if not plan.reason:
         for i in range(0, rays.shape[1], PART):
-            _part(plan, rays[:, i : i + PART], i, found)
-    return found
+            _part(plan, rays[:, i : i + PART], i, outcomes)
+    return outcomes
 
 
-def _part(plan: LeafPlan, rays: Floats, begin: int, found: Outcomes) -> None:
+def _part(plan: LeafPlan, rays: Floats, begin: int, outcomes: Outcomes) -> None:
     lanes = Lanes.of(plan, rays)
-    (at,) = np.nonzero(lanes.held)
-    if len(at) < len(lanes.held):
+    (at,) = np.nonzero(lanes.in_range)
+    if len(at) < len(lanes.in_range):
         lanes = lanes.take(at)
     at += begin
-    if plan.kind != PLANES:
-        missed = screen_curved(plan, lanes)
-        found.mark(at[missed], MISS, FLOAT)
-        at, lanes = _left(at, lanes, missed)
-    if plan.planes:
-        missed, whole = screen_planes(plan, lanes)
-        found.mark(at[missed], MISS, FLOAT)
-        found.mark(at[whole], HIT, FLOAT, np.inf)
-        at, lanes = _left(at, lanes, missed | whole)
+    for screen, _, keep in faces(plan):
+        state = screen(*lanes.ray(plan, keep), plan.numbers)
+        unsure = state == UNSURE
+        (done,), (left,) = np.nonzero(~unsure), np.nonzero(unsure)
+        sure = state[done]
+        outcomes.mark(at[done], sure, FLOAT, np.where(sure == HIT, np.inf, 0.0))
+        at, lanes = at[left], lanes.take(left)
     if len(at):
-        found.put(at, _solve(plan, lanes))
-
-
-def _left(at: NDArray[np.intp], lanes: Lanes, done: Mask) -> tuple[NDArray[np.intp], Lanes]:
-    """Return the lanes that are not done."""
-    (left,) = np.nonzero(~done)
-    return at[left], lanes.take(left)
-
-
-def _solve(plan: LeafPlan, lanes: Lanes) -> Outcomes:
-    if plan.kind == PLANES:
-        return solve_planes(plan, lanes)
-    found = solve_curved(plan, lanes)
-    if plan.planes:
-        return Outcomes.of(joined(found.ends, solve_planes(plan, lanes).ends), PAIR)
-    return found
+        lists = [
+            solve(*lanes.ray(plan, keep), plan.numbers, lanes.back)
+            for _, solve, keep in faces(plan)
+        ]
+        outcomes.put(at, Outcomes.of(joined(*lists) if len(lists) > 1 else lists[0], PAIR))

@@ -19,27 +19,15 @@ from raycert.oracle.batch.arithmetic import (
     Singles,
     Triple,
     heads,
+    offset,
     size,
     two_prod,
     two_sum,
 )
-from raycert.oracle.batch.decide import FAR, LEAST, MOST, NEAR, joined, settled
+from raycert.oracle.batch.decide import FAR, LEAST, MOST, NEAR, joined, rounded
 from raycert.oracle.batch.formulas import Bounded2, away, ball, divisor, ends, plane, ratio, wall
-from raycert.oracle.batch.lanes import (
-    ALL,
-    HIT,
-    KNOWN,
-    MISS,
-    RATIONAL,
-    Floats,
-    Lanes,
-    Mask,
-    Outcomes,
-    offset,
-    speed,
-    tilted,
-)
-from raycert.oracle.batch.leaf import PLANES, LeafPlan
+from raycert.oracle.batch.lanes import HIT, KNOWN, MISS, RATIONAL, Floats, Lanes, Mask, Outcomes
+from raycert.oracle.batch.leaf import PLANES, WALL, LeafPlan
 
 Terms = list[Number]
 
@@ -59,7 +47,7 @@ def grown(terms: Terms) -> Terms:
 
 
 def vanishes(terms: Terms) -> Mask:
-    """Tell where a sum is 0."""
+    """Where a sum is 0."""
     zero: Mask = np.logical_and.reduce([part == 0 for part in grown(terms)])
     return zero
 
@@ -86,16 +74,19 @@ def dot_terms(a: Triple, b: Triple) -> Terms:
     return [0.0 * a[0][0], *(term for i in range(3) for term in products(a[i], b[i]))]
 
 
+def singles(sums: Iterable[Terms]) -> tuple[Triple, Mask]:
+    """Return three sums as one double each, and where that is all of them."""
+    values, whole = zip(*map(single, sums), strict=True)
+    return paired(values), np.logical_and.reduce(whole)
+
+
 def cross_singles(a: Triple, b: Triple) -> tuple[Triple, Mask]:
     """Return a x b, and where each part of it is one double."""
-    parts: list[Pair] = []
-    whole = np.ones(np.shape(a[0][0]), bool)
-    for j, k in ((1, 2), (2, 0), (0, 1)):
-        minus = (-a[k][0], -a[k][1])
-        value, held = single([0.0 * a[0][0], *products(a[j], b[k]), *products(minus, b[j])])
-        parts.append((value, 0.0 * value))
-        whole &= held
-    return (parts[0], parts[1], parts[2]), whole
+    minus = [(-high, -low) for high, low in a]
+    return singles(
+        [0.0 * a[0][0], *products(a[j], b[k]), *products(minus[k], b[j])]
+        for j, k in ((1, 2), (2, 0), (0, 1))
+    )
 
 
 def square_terms(a: Iterable[Number]) -> Terms:
@@ -105,106 +96,95 @@ def square_terms(a: Iterable[Number]) -> Terms:
 
 def paired(v: Singles) -> Triple:
     """Return doubles as pairs."""
-    return (v[0], 0.0 * v[0]), (v[1], 0.0 * v[1]), (v[2], 0.0 * v[2])
+    return tuple((x, 0.0 * x) for x in v)
 
 
 class Zeros:
     """The exact numbers of a curved face's lanes, for the tests."""
 
     def __init__(self, plan: LeafPlan, lanes: Lanes) -> None:
-        """Take the lanes in the plan's units."""
-        self.plan = plan
-        self.y = offset(lanes, plan.first, plan.keep)
-        self.v = speed(lanes, plan.keep)
-        self.w = constants(plan, len(lanes.held))
+        u, self.v, points = lanes.ray(plan, plan.keep)
+        self.y = offset(u, points[0])
+        self.plan, self.tilted = plan, plan.kind == WALL
+        self.w = constants(plan, len(lanes.back))
 
     def still(self) -> Mask:
-        """Tell where the ray certainly runs along the axis, or stands still: A = 0."""
-        if not tilted(self.plan):
+        """Where the ray certainly runs along the axis, or stands still: A = 0."""
+        if not self.tilted:
             return np.asarray(size(self.v) == 0)
         a, whole = cross_singles(paired(self.v), self.w)
         zero: Mask = whole & (size(heads(a)) == 0)
         return zero
 
     def on_face(self, at: NDArray[np.intp], high: Floats, low: Floats) -> Mask:
-        """Tell of which lanes the point at t is certainly on the face."""
-        point, whole = along(taken(self.y, at), heads(taken(paired(self.v), at)), high, low)
-        if not tilted(self.plan):
+        """Of which lanes the point at t is certainly on the face."""
+        point, whole = along(some(self.y, at), heads(some(paired(self.v), at)), high, low)
+        if not self.tilted:
             r = np.full_like(high, self.plan.radius)
             p, e = two_prod(r, r)
             return whole & vanishes([*square_terms(x for x, _ in point), -p, -e])
-        g, held = cross_singles(point, taken(self.w, at))
+        g, also = cross_singles(point, some(self.w, at))
         cap = [np.full_like(high, -x) for x in self.plan.cap]
-        return whole & held & self.plan.exact & vanishes([*square_terms(x for x, _ in g), *cap])
+        return whole & also & self.plan.exact & vanishes([*square_terms(x for x, _ in g), *cap])
 
     def at_start(self) -> Mask:
-        """Tell where C = 0."""
+        """Where C = 0."""
         zero = np.zeros_like(self.v[0])
         return self.on_face(np.arange(len(zero)), zero, zero)
 
     def touching(self) -> Mask:
-        """Tell where G = 0. A direction along a coordinate axis is taken as a unit vector."""
+        """Where G = 0. A direction along a coordinate axis is taken as a unit vector."""
         count = sum((x != 0).astype(int) for x in self.v)
         x, y, z = (np.where(count == 1, np.sign(part), part) for part in self.v)
         v = paired((x, y, z))
-        if tilted(self.plan):
+        if self.tilted:
             a, whole = cross_singles(v, self.w)
-            det, held = single(dot_terms(self.y, a))
+            det, also = single(dot_terms(self.y, a))
             k = [det]
         else:
             a, whole = v, np.ones_like(self.v[0], bool)
-            parts, held = cross_singles(self.y, v)
+            parts, also = cross_singles(self.y, v)
             k = [x for x, _ in parts]
         aa, known = single(square_terms(x for x, _ in a))
         rr = tuple(np.full_like(aa, x) for x in self.plan.rr)
         terms = [*products((rr[0], rr[1]), (-aa, 0.0 * aa)), *square_terms(k)]
-        return whole & held & known & self.plan.exact & vanishes(terms)
+        return whole & also & known & self.plan.exact & vanishes(terms)
 
     def square_on(self) -> Mask:
-        """Tell where B = 0."""
-        if not tilted(self.plan):
+        """Where B = 0."""
+        if not self.tilted:
             return vanishes(dot_terms(self.y, paired(self.v)))
         a, whole = cross_singles(paired(self.v), self.w)
-        g, held = cross_singles(self.y, self.w)
-        return whole & held & vanishes(dot_terms(a, g))
+        g, also = cross_singles(self.y, self.w)
+        return whole & also & vanishes(dot_terms(a, g))
 
 
 def along(y: Triple, v: Singles, high: Number, low: Number) -> tuple[Triple, Mask]:
     """Return y + t v, and where each part of it is one double."""
-    parts: list[Pair] = []
-    whole = np.ones(np.shape(high), bool)
-    for i in range(3):
-        value, held = single([*y[i], *products((high, low), (v[i], 0.0 * v[i]))])
-        parts.append((value, 0.0 * value))
-        whole &= held
-    return (parts[0], parts[1], parts[2]), whole
+    speeds = zip(y, paired(v), strict=True)
+    return singles([*start, *products((high, low), speed)] for start, speed in speeds)
 
 
 def on_plane(y: Triple, v: Singles, w: Triple, high: Number, low: Number) -> Mask:
-    """Tell where the point at t is certainly on a plane; where w has no part, none is looked at."""
+    """Where the point at t is certainly on a plane; where w has no part, none is looked at."""
     point, whole = along(masked(y, w), heads(masked(paired(v), w)), high, low)
     return whole & vanishes(dot_terms(point, w))
 
 
-def taken(a: Triple, at: NDArray[np.intp]) -> Triple:
+def some(a: Triple, at: NDArray[np.intp]) -> Triple:
     """Return the lanes with these numbers."""
-    x, y, z = ((high[at], low[at]) for high, low in a)
-    return x, y, z
+    return tuple((high[at], low[at]) for high, low in a)
 
 
 def masked(a: Triple, w: Triple) -> Triple:
     """Return a with 0 for the parts where w has none."""
-    x, y, z = (
-        (np.where(part[0] == 0, 0.0, high), np.where(part[0] == 0, 0.0, low))
-        for (high, low), part in zip(a, w, strict=True)
-    )
-    return x, y, z
+    free = [(np.where(part[0] == 0, 0.0, 1.0), pair) for part, pair in zip(w, a, strict=True)]
+    return tuple((high * keep, low * keep) for keep, (high, low) in free)
 
 
 def constants(plan: LeafPlan, n: int) -> Triple:
     """Return the axis or normal for each of n lanes."""
-    x, y, z = ((np.full(n, high), np.full(n, low)) for high, low in plan.w)
-    return x, y, z
+    return tuple((np.full(n, high), np.full(n, low)) for high, low in plan.w)
 
 
 OPEN = 2
@@ -231,7 +211,7 @@ def settle(t: Bounded2, back: Floats, test: Test, apart: Number) -> End:
     Its two neighbours' sum rounds as IEEE 754 rounds the tie. So it is for t and the double next
     to it, where that may be a midpoint of binary32.
     """
-    value, sure, side = settled(t, back)
+    value, sure, side = rounded(t, back)
     below, above = ends(t)
     half = 0.5 * (above - below)
     value = np.where(sure, value, (below + half) * back)
@@ -255,11 +235,11 @@ def _tested(where: Mask, test: Test, high: Floats, low: Floats) -> Mask:
 def solve_curved(plan: LeafPlan, lanes: Lanes) -> Outcomes:
     """Return what exact zeros decide of the curved face."""
     frame = Zeros(plan, lanes)
-    if tilted(plan):
+    if frame.tilted:
         terms = wall(frame.y, frame.v, plan.w, plan.size, plan.rr, plan.cap)
     else:
         terms = ball(frame.y, frame.v, plan.rr)
-    found = Outcomes.unsure(len(lanes.held))
+    found = Outcomes.unsure(len(lanes.back))
     still, start = frame.still(), signs(terms[2], frame.at_start)
     found.mark(still & (start == 1), MISS, RATIONAL)
     found.mark(still & ((start == 0) | (start == -1)), HIT, RATIONAL, np.inf)
@@ -268,7 +248,11 @@ def solve_curved(plan: LeafPlan, lanes: Lanes) -> Outcomes:
     found.mark(moving & ((real == -1) | ((start == 1) & (turn == 1))), MISS, RATIONAL)
     found.mark(moving & (start == 0) & ((turn == 0) | (turn == 1)), HIT, RATIONAL)
     _crossings(plan, lanes, frame, terms, (moving & (real == 1), start, turn), found)
-    _touches(lanes, frame, terms, moving & (real == 0) & (start == 1) & (turn == -1), found)
+    double = moving & (real == 0) & (start == 1) & (turn == -1)
+    if double.any():  # D = 0, and the root -B / A ahead
+        ahead = ratio(absolute(terms[1]), terms[0])
+        touch = settle(ahead, lanes.back, frame.on_face, np.inf)
+        _hit(found, double, touch, touch)
     return found
 
 
@@ -296,15 +280,6 @@ def _crossings(
     _hit(found, at_0, zero, settle(chord, back, frame.on_face, np.inf))
 
 
-def _touches(lanes: Lanes, frame: Zeros, terms: Any, at: Mask, found: Outcomes) -> None:
-    """Write the lanes with D = 0 and the double root -B / A ahead."""
-    if not at.any():
-        return
-    a, b, _, _ = terms
-    touch = settle(ratio(absolute(b), a), lanes.back, frame.on_face, np.inf)
-    _hit(found, at, touch, touch)
-
-
 def nothing(n: int) -> End:
     """Return 0 as an endpoint, exactly."""
     return np.zeros(n), np.ones(n, bool), np.full(n, KNOWN)
@@ -326,31 +301,31 @@ def _hit(found: Outcomes, where: Mask, enter: End, leave: End) -> None:
 
 def solve_planes(plan: LeafPlan, lanes: Lanes) -> Outcomes:
     """Return what exact zeros decide of a half-space or slab."""
-    w = constants(plan, len(lanes.held))
-    at_q = offset(lanes, plan.second, ALL)
-    at_p = offset(lanes, plan.first, ALL) if plan.planes == 2 else at_q
-    (c, b), (d, _) = (plane(y, lanes.v, plan.w, plan.size) for y in (at_q, at_p))
-    climb = signs(b, lambda: vanishes(dot_terms(paired(lanes.v), w)))
+    w = constants(plan, len(lanes.back))
+    u, v, (p, q) = lanes.ray(plan)
+    at_p, at_q = offset(u, p), offset(u, q)
+    (c, b), (d, _) = (plane(y, v, plan.w, plan.size) for y in (at_q, at_p))
+    climb = signs(b, lambda: vanishes(dot_terms(paired(v), w)))
     over = signs(c, lambda: vanishes(dot_terms(at_q, w)))
     above = signs(d, lambda: vanishes(dot_terms(at_p, w)))
     under = np.where(above == OPEN, OPEN, -above if plan.planes == 2 else -1)
     found = Outcomes.unsure(len(climb))
     found.mark((climb == 0) & ((over == 1) | (under == 1)), MISS, RATIONAL)
     found.mark((climb == 0) & (over <= 0) & (under <= 0), HIT, RATIONAL, np.inf)
-    speed_, back = absolute(b), lanes.back
+    climbing, back = absolute(b), lanes.back
 
     def met(y: Triple, height: Bounded2) -> End:
         def on(at: NDArray[np.intp], high: Floats, low: Floats) -> Mask:
-            v = heads(taken(paired(lanes.v), at))
-            return on_plane(taken(y, at), v, taken(w, at), high, low)
+            start, way = some(y, at), heads(some(paired(v), at))
+            return on_plane(start, way, some(w, at), high, low)
 
-        return settle(ratio(absolute(height), speed_), back, on, np.inf)
+        return settle(ratio(absolute(height), climbing), back, on, np.inf)
 
-    q, p = met(at_q, c), met(at_p, d)
+    at_second, at_first = met(at_q, c), met(at_p, d)
     if plan.planes == 1:
-        p = np.full(len(back), np.inf), np.ones(len(back), bool), np.full(len(back), KNOWN)
-    _passed(found, climb == 1, (under, p), (over, q), False)
-    _passed(found, climb == -1, (over, q), (under, p), plan.planes == 1)
+        at_first = np.full(len(back), np.inf), *nothing(len(back))[1:]
+    _passed(found, climb == 1, (under, at_first), (over, at_second), False)
+    _passed(found, climb == -1, (over, at_second), (under, at_first), plan.planes == 1)
     return found
 
 

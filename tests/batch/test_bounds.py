@@ -10,10 +10,13 @@ import pytest
 
 from raycert.cases.model import InfiniteCylinder, Slab, Sphere
 from raycert.oracle.batch import decide, formulas
+from raycert.oracle.batch.arithmetic import heads, minus, offset, size
 from raycert.oracle.batch.formulas import (
     UU,
     U,
     ball,
+    cross_bound,
+    cross_plain,
     divisor,
     gap_ball,
     gap_wall,
@@ -21,9 +24,8 @@ from raycert.oracle.batch.formulas import (
     plane_plain,
     wall,
 )
-from raycert.oracle.batch.lanes import ALL, Lanes, axis, heads, offset, speed
-from raycert.oracle.batch.lanes import tilted as has_axis
-from raycert.oracle.batch.leaf import LeafPlan, plan
+from raycert.oracle.batch.lanes import Lanes
+from raycert.oracle.batch.leaf import WALL, LeafPlan, plan
 from shared.batch_rays import aligned, beside_ties, far, free, grazing, tilted, wrong
 
 Vector = tuple[Fraction, Fraction, Fraction]
@@ -50,10 +52,11 @@ def lane(arrays, i: int) -> Vector:
 
 def truths(leaf: LeafPlan, lanes: Lanes, i: int) -> tuple[Fraction, Fraction, Fraction, Fraction]:
     """Return A, B, C and G of a lane exactly."""
-    y, v = lane(offset(lanes, leaf.first, leaf.keep), i), lane(speed(lanes, leaf.keep), i)
+    start, way, points = lanes.ray(leaf, leaf.keep)
+    y, v = lane(offset(start, points[0]), i), lane(way, i)
     a, g, r2 = v, y, Fraction(leaf.radius) ** 2
     gap = r2 * dot(v, v) - dot(cross(y, v), cross(y, v))
-    if has_axis(leaf):
+    if leaf.kind == WALL:
         w = tuple(map(exact, leaf.w))
         a, g = cross(v, w), cross(y, w)
         gap = r2 * dot(a, a) - dot(y, a) ** 2
@@ -63,14 +66,15 @@ def truths(leaf: LeafPlan, lanes: Lanes, i: int) -> tuple[Fraction, Fraction, Fr
 
 def curved_shares(leaf: LeafPlan, lanes: Lanes) -> list[list[float]]:
     """Return the error in units of its bound: of A, B, C, G in pairs, and of G in doubles."""
-    y, v = offset(lanes, leaf.first, leaf.keep), speed(lanes, leaf.keep)
-    plain = heads(lanes, leaf.first, leaf.keep)
-    if has_axis(leaf):
+    u, v, points = lanes.ray(leaf, leaf.keep)
+    y, plain = offset(u, points[0]), minus(u, points[0])
+    if leaf.kind == WALL:
         terms = wall(y, v, leaf.w, leaf.size, leaf.rr, leaf.cap)
-        _, _, gap, bound = gap_wall(plain, v, axis(leaf), leaf.size, leaf.rr[0])
+        a, ea = cross_plain(v, heads(leaf.w)), cross_bound(U, size(v), leaf.size)
+        gap, bound = gap_wall(plain, size(plain), a, size(a), ea, leaf.rr[0])
     else:
         terms = ball(y, v, leaf.rr)
-        gap, bound = gap_ball(plain, v, leaf.rr[0])
+        gap, bound = gap_ball(plain, size(plain), v, size(v), leaf.rr[0])
     shares = []
     for i in range(len(gap)):
         truth = truths(leaf, lanes, i)
@@ -91,7 +95,7 @@ def test_the_forms_of_curved_faces_are_within_their_bounds(family) -> None:
             if isinstance(leaf, Sphere | InfiniteCylinder):
                 prepared = plan(leaf)
                 lanes = Lanes.of(prepared, np.concatenate([u.T, v.T]))
-                assert lanes.held.all()
+                assert lanes.in_range.all()
                 shares += curved_shares(prepared, lanes)
     worst = np.max(shares, axis=0)
     assert (worst <= 1).all(), worst
@@ -104,11 +108,12 @@ def test_the_forms_of_planes_are_within_their_bounds(family) -> None:
     leaves, u, v = family(np.random.default_rng(8), 100)
     leaf = plan(next(leaf for leaf in leaves if isinstance(leaf, Slab)))
     lanes = Lanes.of(leaf, np.concatenate([u.T, v.T]))
-    y, w = offset(lanes, leaf.second, ALL), tuple(map(exact, leaf.w))
-    pairs = plane(y, lanes.v, leaf.w, leaf.size)
-    c, ec, b, eb = plane_plain(heads(lanes, leaf.second, ALL), lanes.v, axis(leaf), leaf.size)
+    start, way, (_, q) = lanes.ray(leaf)
+    y, w = offset(start, q), tuple(map(exact, leaf.w))
+    pairs = plane(y, way, leaf.w, leaf.size)
+    c, ec, b, eb = plane_plain(minus(start, q), way, heads(leaf.w), leaf.size)
     for i in range(len(c)):
-        truth = dot(lane(y, i), w), dot(lane(lanes.v, i), w)
+        truth = dot(lane(y, i), w), dot(lane(way, i), w)
         for (x, e), (s, es), t in zip(pairs, ((c, ec), (b, eb)), truth, strict=True):
             assert abs(exact((x[0][i], x[1][i])) - t) <= exact(e[i])
             assert abs(exact(s[i]) - t) <= exact(es[i])
@@ -118,8 +123,8 @@ def test_the_root_of_the_discriminant_is_within_its_bound() -> None:
     leaves, u, v = free(np.random.default_rng(9), 100)
     leaf = plan(leaves[3])
     lanes = Lanes.of(leaf, np.concatenate([u.T, v.T]))
-    y = offset(lanes, leaf.first, leaf.keep)
-    gap = wall(y, speed(lanes, leaf.keep), leaf.w, leaf.size, leaf.rr, leaf.cap)[3]
+    start, way, points = lanes.ray(leaf)
+    gap = wall(offset(start, points[0]), way, leaf.w, leaf.size, leaf.rr, leaf.cap)[3]
     with np.errstate(all="ignore"):
         root, bound = divisor(gap, leaf.root_w)
     w = tuple(map(exact, leaf.w))
