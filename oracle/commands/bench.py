@@ -137,7 +137,6 @@ def _is_quick(mesh: str) -> bool:
 
 
 def effort(quick: bool, rays: int | None) -> Effort:
-    """Return how much is measured."""
     from dataclasses import replace
 
     from raycert.oracle.measure.files import FULL, QUICK
@@ -168,7 +167,6 @@ def _list() -> None:
 def grid(
     words: Sequence[str], figures: Sequence[str], rows: Sequence[Sequence[str]], wrap: bool = False
 ) -> Table:
-    """Return a table: words to the left, figures to the right."""
     from rich.table import Table
 
     table = Table(box=None, pad_edge=False)
@@ -206,7 +204,6 @@ def _show(report: Report) -> None:
 
 
 def _show_race(name: str, rows: Sequence[Figures], seed: int, console: Any) -> None:
-    """Print a table for each scenario of a race."""
     for scenario in dict.fromkeys(row.scenario for row in rows):
         some = [row for row in rows if row.scenario == scenario]
         lead = "" if name == "methods" else f"{name}, "

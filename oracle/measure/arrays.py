@@ -54,28 +54,23 @@ class DoubleDouble:
     __slots__ = ("high", "low")
 
     def __init__(self, high: Array, low: Array = 0.0) -> None:
-        """Hold high + low."""
         self.high, self.low = high, low
 
     @property
     def pair(self) -> tuple[Array, Array]:
-        """Return both parts."""
         return self.high, self.low
 
     __add__, __sub__ = _lifted(arithmetic.add), _lifted(arithmetic.sub)
     __mul__, __truediv__ = _lifted(arithmetic.mul), _lifted(arithmetic.div)
 
     def __neg__(self) -> DoubleDouble:
-        """Return the negative."""
         return DoubleDouble(-self.high, -self.low)
 
     def __lt__(self, other: DoubleDouble | float) -> Array:
-        """Say in which lanes it is less."""
         high, low = other.pair if isinstance(other, DoubleDouble) else (other, 0.0)
         return (self.high < high) | ((self.high == high) & (self.low < low))
 
     def __gt__(self, other: DoubleDouble | float) -> Array:
-        """Say in which lanes it is greater."""
         high, low = other.pair if isinstance(other, DoubleDouble) else (other, 0.0)
         return (self.high > high) | ((self.high == high) & (self.low > low))
 
@@ -122,7 +117,6 @@ class Columns:
     """The rays of all lanes, and the leaf that each meets, in numbers of a kind."""
 
     def __init__(self, kind: Kind, origins: Any, directions: Any) -> None:
-        """Take rays in rows."""
         self.kind, lanes = kind, len(origins)
         self.u, self.v = self._vector(origins), self._vector(directions)
         self.zero = kind.number(np.zeros(lanes))
@@ -234,7 +228,6 @@ def scattered(
 
 
 def rows(cases: Sequence[Case]) -> tuple[Floats, Floats]:
-    """Return origins and directions, a row each."""
     return (
         np.array([case.ray.origin for case in cases]),
         np.array([case.ray.direction for case in cases]),
@@ -270,12 +263,10 @@ def _function(name: str) -> Callable[..., Any]:
 
 
 def textbook(kind: str, cases: Sequence[Case]) -> list[Answered]:
-    """Return the lists of the textbook formula in arrays of a kind."""
     return scattered(cases, shape, lambda group: _lists(group, kind))
 
 
 def ready_textbook(kind: str, cases: Sequence[Case]) -> Callable[[], None]:
-    """Return the same as one call over arrays."""
     work = [_columns(group, kind) for _, group in grouped(cases, shape)]
 
     def run() -> None:

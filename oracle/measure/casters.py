@@ -59,11 +59,9 @@ class Cast:
 
     @property
     def solid(self) -> Solid:
-        """Return what the rays are cast at."""
         return self.outer if self.inner is None else Difference((self.outer, self.inner))
 
     def exact(self, question: str) -> RayHits:
-        """Return the correctly rounded hits."""
         import numpy as np
 
         assert self.truth is not None
@@ -90,7 +88,6 @@ def cast(name: str, size: tuple[int, int], seed: int) -> Cast:
 
 
 def _from_outside(some: Cast) -> Cast:
-    """Return a cast with its truth, without the rays that start inside."""
     from raycert.oracle.batch.blocks import trace_batch
 
     lists = trace_batch(some.solid, some.origins, some.directions, engine="numpy")
@@ -104,13 +101,11 @@ def _from_outside(some: Cast) -> Cast:
 
 
 def hole(outer: Cylinder) -> Cylinder:
-    """Return a cylinder of half the radius through both caps."""
     beyond = times(0.25, minus(outer.q, outer.p))
     return Cylinder(minus(outer.p, beyond), plus(outer.q, beyond), outer.radius / 2)
 
 
 def camera(outer: Cylinder) -> Camera:
-    """Return an eye in front of a cylinder."""
     at = times(0.5, plus(outer.p, outer.q))
     eye = along(at, DISTANCE, (0.5, -0.75, 0.25))
     return Camera("perspective", eye, at, (0.0, 0.0, 1.0), ANGLE)
@@ -354,7 +349,6 @@ def check(found: RayHits, truth: RayHits, rays: int) -> tuple[float, float | Non
 
 
 def _sorted(hits: RayHits, keep: Any) -> Any:
-    """Return the t of the rays that are kept, ray by ray and in order."""
     import numpy as np
 
     kept = keep[hits.ray]

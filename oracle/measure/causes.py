@@ -74,12 +74,10 @@ CHANCE = 0.01
 
 
 def first_leaf(shape: Shape) -> Body | Ball:
-    """Return the first leaf of a shape."""
     return first_leaf(shape.of[0]) if isinstance(shape, Node) else shape
 
 
 def anchor(shape: Shape) -> Exact:
-    """Return p, or the center, of the first leaf."""
     leaf = first_leaf(shape)
     return leaf.center if isinstance(leaf, Ball) else leaf.p
 
@@ -146,7 +144,6 @@ def nearest(sample: Sample) -> Fraction | None:
 
 
 def open_ended(sample: Sample) -> Sample | None:
-    """Return the wall of a cylinder without its caps."""
     shape = sample.shape
     if not isinstance(shape, Body) or shape.kind != "cylinder":
         return None
@@ -278,7 +275,6 @@ def restored(samples: Sequence[Sample], solve: Solve, remedies: Remedies) -> dic
 
 
 def copies(sample: Sample, count: int) -> list[Sample]:
-    """Return the same problem in other sizes, whose roundings are others."""
     return [
         replace(sample, frame=sample.frame.scaled(Fraction(COPIES + i, COPIES)))
         for i in range(1, count + 1)
@@ -301,7 +297,6 @@ def _rare(
 
 
 def taken_for_parallel(broken: Sequence[Breakage], solve: Solve) -> int:
-    """Return how many answers are the ones to the ray exactly along the axis."""
     near = [one for one in broken if _slope(one.sample) <= NEARLY]
     asked = [(one, q) for one in near if (q := parallel(one.sample).referee()) is not None]
     answers = solve([referee.case for _, referee in asked])
@@ -348,7 +343,6 @@ def diagnose(
 
 
 def _text(told: str | None, broken: Sequence[Breakage]) -> str:
-    """Return what a remedy that restores tells."""
     match told:
         case None:
             return NOT_TOLD

@@ -40,7 +40,6 @@ class Time(NamedTuple):
 
     @classmethod
     def of(cls, seconds: Sequence[float], rays: int = 1) -> Time:
-        """Return the figures of some passes."""
         each = [s / rays for s in seconds]
         low, _, high = quantiles(each, n=4, method="inclusive") if len(each) > 1 else each * 3
         return cls(min(each), median(each), high - low, len(each), rays)
@@ -53,7 +52,6 @@ def one_thread() -> None:
 
 
 def wall(call: Callable[[], Any]) -> Timed:
-    """Return the time of a call on the wall."""
     began = perf_counter()
     answer = call()
     return Timed(perf_counter() - began, answer)
@@ -70,7 +68,6 @@ class Race:
     """Passes of ways in turn. What is done is there at any time: an interruption loses no pass."""
 
     def __init__(self, ways: Mapping[str, Callable[[], Any]]) -> None:
-        """Take what is called in each pass, by name."""
         self.ways = ways
         self.seconds: dict[str, list[float]] = {name: [] for name in ways}
         self.answers: dict[str, Any] = {}
@@ -96,5 +93,4 @@ class Race:
         return self
 
     def least(self, name: str) -> float:
-        """Return the least seconds of a way."""
         return min(self.seconds[name])

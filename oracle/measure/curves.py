@@ -51,7 +51,6 @@ class Stop(NamedTuple):
     size: int
 
     def samples(self, x: Fraction) -> list[Sample]:
-        """Return the samples of a step, this one or another one of the sweep."""
         return SWEEPS[self.sweep].samples(x, self.seed, self.size)
 
     def referees(self) -> list[Referee]:
@@ -85,18 +84,15 @@ def walk(task: tuple[Stop, Sequence[str], Given]) -> Walked | None:
 
 
 def explain(task: tuple[str, Stop, Curve]) -> tuple[str, Stop, Cause]:
-    """Return why a built-in way breaks at a step of its curve, with its name and the step."""
     name, stop, curve = task
     return name, stop, cause_of(stop, curve, BY_NAME[name].solve)
 
 
 def cause_of(stop: Stop, curve: Mapping[Fraction, Point], solve: Solve) -> Cause:
-    """Return why what `solve` answers breaks at a step."""
     return diagnose(SWEEPS[stop.sweep], curve, stop.x, solve, stop.samples)
 
 
 def quiet() -> None:
-    """Leave Ctrl-C to the process that started this one."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
@@ -135,20 +131,16 @@ class Itinerary:
 
     @property
     def count(self) -> int:
-        """Return the samples of a step."""
         return QUICK_SAMPLES if self.quick else SAMPLES
 
     def steps(self, sweep: Sweep) -> tuple[Fraction, ...]:
-        """Return the steps of a sweep that are run."""
         return sweep.coarse(QUICK_EVERY if self.quick else 1)
 
     def stop(self, sweep: Sweep, x: Fraction) -> Stop:
-        """Return a step as workers take it."""
         return Stop(sweep.name, x, self.seed, self.count)
 
     @property
     def total(self) -> int:
-        """Return the number of steps over all sweeps."""
         return sum(len(self.steps(sweep)) for sweep in self.sweeps)
 
     def tasks(self, sweep: Sweep) -> Iterator[tuple[Stop, Sequence[str], Given]]:
@@ -181,7 +173,6 @@ class Stress:
     interrupted: bool = False
 
     def add(self, walked: Walked) -> None:
-        """Keep what came of a step."""
         sweep, x = walked.stop.sweep, walked.stop.x
         self.grounds.setdefault(sweep, {})[x] = walked.ground
         curves = self.curves.setdefault(sweep, {})
@@ -195,7 +186,6 @@ class Stress:
         causes.sort(key=lambda cause: SWEEPS[stop.sweep].steps.index(cause.step))
 
     def curve(self, sweep: str, name: str) -> Curve:
-        """Return a curve, as far as it is known."""
         return self.curves.get(sweep, {}).get(name, {})
 
     def ranges(self, sweep: Sweep, name: str) -> Ranges | None:
@@ -269,7 +259,6 @@ def find_causes(stress: Stress, advance: Advance) -> None:
 
 
 def form(stress: Stress, sides: Sequence[Sides] = ()) -> Data:
-    """Return all of it as a JSON value."""
     plan = stress.plan
     slopes = {caster: slope(sides, caster) for caster in CASTERS}
     return {
@@ -317,7 +306,6 @@ def rows(stress: Stress) -> Iterator[Data]:
 
 
 def table(stress: Stress) -> str:
-    """Return the rows as CSV, with an empty field for null."""
     return as_csv(rows(stress), KEY)
 
 

@@ -49,7 +49,6 @@ def ladder(bits: Sequence[int], context: Any, attempt: Callable[[], T]) -> T:
 
 
 def with_digits(digits: int) -> Solve:
-    """Return the textbook formula in mpmath, at so many decimal digits."""
 
     def make() -> Solve:
         mpmath = import_module("mpmath")
@@ -143,7 +142,6 @@ class Box:
     __slots__ = ("value",)
 
     def __init__(self, value: Any) -> None:
-        """Hold an interval of mpmath."""
         self.value = value
 
     __add__, __sub__ = _lifted(add), _lifted(sub)
@@ -152,11 +150,9 @@ class Box:
     __gt__, __ge__ = _decided(gt, le), _decided(ge, lt)
 
     def __neg__(self) -> Box:
-        """Return the negative."""
         return Box(-self.value)
 
     def __abs__(self) -> Box:
-        """Return the magnitude."""
         return Box(abs(self.value))
 
     def __eq__(self, other: object) -> bool:
@@ -180,7 +176,6 @@ def in_balls(solid: Solid, ray: Ray) -> Pairs:
 
 
 def _balls(arb: Any, solid: Cylinder, ray: Ray) -> Pairs:
-    """Return the list by balls of the precision that is set."""
     p, q, u, v = (
         (arb(x), arb(y), arb(z)) for x, y, z in (solid.p, solid.q, ray.origin, ray.direction)
     )

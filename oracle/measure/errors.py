@@ -52,12 +52,10 @@ class Referee(Judge):
 
     @classmethod
     def of(cls, case: Case) -> Referee:
-        """Return the referee of a question in doubles."""
         return cls(case.solid, case.ray, BINARY64)
 
     @property
     def case(self) -> Case:
-        """Return the question as ways take it."""
         return Case(self.solid, self.ray)
 
     @cached_property
@@ -98,7 +96,6 @@ class Referee(Judge):
         return float(Step.at(i)) if i <= last else inf
 
     def is_stable(self, answer: Answered) -> bool:
-        """Whether an answer is well-formed and its strict k at most 64."""
         if answer is None or self.malformed(answer):
             return False
         return self.accepts(answer, LIMIT, "strict")
@@ -152,7 +149,6 @@ class Referee(Judge):
 
 
 def referees(cases: Iterable[Case]) -> list[Referee]:
-    """Return a referee for each case."""
     return [Referee.of(case) for case in cases]
 
 
@@ -172,7 +168,6 @@ class Spread:
 
     @classmethod
     def of(cls, figures: Sequence[float]) -> Spread | None:
-        """Return the spread of figures; None of none."""
         if not figures:
             return None
         return cls(quantile(figures, 0.5), quantile(figures, 0.99), max(figures))

@@ -56,7 +56,6 @@ def body(solid: Cylinder, caster: str, n: int) -> tuple[Any, Any]:
 
 
 def cast(caster: str, n: int, cases: Sequence[Case]) -> list[Answered]:
-    """Return the lists of prisms of n sides under a caster."""
     from raycert.oracle.measure.arrays import scattered
 
     return scattered(cases, lambda solid: solid, lambda group: _group(group, caster, n))

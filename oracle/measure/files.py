@@ -70,11 +70,9 @@ class Report:
     interrupted: bool = False
 
     def rows(self, name: str) -> list[Any]:
-        """Return the rows of a set, in the race of methods."""
         return [row for row in self.sections.get("methods", ()) if row.scenario == name]
 
     def sets(self) -> list[str]:
-        """Return the sets that have rows, in the race of methods."""
         return list(dict.fromkeys(row.scenario for row in self.sections.get("methods", ())))
 
     def as_json(self) -> dict[str, Any]:
@@ -116,7 +114,6 @@ def surroundings() -> dict[str, Any]:
 
 
 def processor() -> str:
-    """Return the model of the processor as the system names it."""
     try:
         with open("/proc/cpuinfo", encoding="ascii", errors="replace") as lines:
             models = [line.partition(":")[2].strip() for line in lines if "model name" in line]
@@ -135,7 +132,6 @@ def _long_double_bits() -> int | None:
 
 
 def place(seed: int) -> str:
-    """Return what figures were made on, in a line."""
     here = surroundings()
     packages = ", ".join(f"{name} {number}" for name, number in here["packages"].items())
     return (

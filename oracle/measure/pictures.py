@@ -34,17 +34,14 @@ class Worth:
 
 
 def reference(module: str, name: str) -> Any:
-    """Return what a module of the batched reference calls so."""
     return getattr(import_module(f"raycert.reference.arrays.{module}"), name)
 
 
 def everything() -> frozenset[str]:
-    """Return the names of all items that a plan can leave out."""
     return frozenset(reference("plan", "ITEMS"))
 
 
 def picture(scene: Scene, show: str, off: frozenset[str]) -> Any:
-    """Return the values of a picture, with some items of its plan off."""
     return reference("picture", "picture")(reference("plan", "plan")(scene, show, off), show).values
 
 

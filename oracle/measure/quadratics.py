@@ -78,7 +78,6 @@ def ends(ar: Arithmetic, a: Number, b: Number, disc: Number) -> Found:
 
 
 def textbook(ar: Arithmetic, y: Vector, v: Vector, rr: Number) -> Found:
-    """Solve by B^2 - A C."""
     a, b, c = dot(v, v), dot(v, y), dot(y, y) - rr
     if a == 0:
         return LINE if c <= 0 else []
@@ -86,7 +85,6 @@ def textbook(ar: Arithmetic, y: Vector, v: Vector, rr: Number) -> Found:
 
 
 def printed(ar: Arithmetic, y: Vector, v: Vector, rr: Number) -> Found:
-    """Solve by the formula of Problem 1 (f)."""
     a, b, vy = dot(v, v), dot(v, y), cross(v, y)
     if a == 0:
         return LINE if rr >= dot(y, y) else []
@@ -187,12 +185,10 @@ class Formula:
     arithmetic: Arithmetic = DOUBLES
 
     def __call__(self, cases: Sequence[Case]) -> list[Answered]:
-        """Return the list of each case."""
         with self.arithmetic.setting():
             return [self.answer(case) for case in cases]
 
     def answer(self, case: Case) -> Answered:
-        """Return the list of one case, computed in the setting of the arithmetic."""
         tell = self.arithmetic.tell
         try:
             return answered((tell(a), tell(b)) for a, b in self.node(case.solid, case.ray))

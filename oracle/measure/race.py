@@ -57,7 +57,6 @@ class Figures:
 
     @property
     def lost(self) -> int:
-        """Return how many rays have no answer, or a wrong number of pairs."""
         return self.wrong + self.failures
 
     def as_json(self) -> dict[str, Any]:
@@ -193,7 +192,6 @@ class Course:
         self._sizes = {way.name: -(-way.lanes // len(cases)) for way in self.ways}
 
     def run(self, advance: Callable[[], None]) -> None:
-        """Answer, race, and judge a sample backward."""
         for way in self.ways:
             self.answers[way.name] = way.solve(self.cases)
             advance()

@@ -41,12 +41,10 @@ class Point:
 
     @property
     def wrong(self) -> float:
-        """Return the fraction of wrong counts and failures."""
         return (self.missed + self.phantom + self.failed) / self.count
 
     @property
     def inexact(self) -> float:
-        """Return the fraction of answers that are not the expected list."""
         return (self.count - self.exact) / self.count
 
     @classmethod
@@ -71,7 +69,6 @@ class Point:
 
     @classmethod
     def over(cls, referees: Sequence[Referee], answers: Sequence[Answered]) -> Point:
-        """Return the point of answers to one or more questions."""
         each = list(zip(referees, answers, strict=True))
         return cls.of(
             [referee.forward(answer) for referee, answer in each],
@@ -91,7 +88,6 @@ class Ground:
 
     @classmethod
     def over(cls, referees: Sequence[Referee]) -> Ground:
-        """Return the ground of one or more questions."""
         floors = [referee.floor for referee in referees]
         decisive = sum(referee.decides for referee in referees)
         return cls(len(referees), max(floors), quantile(floors, HIGH), decisive)
@@ -151,7 +147,6 @@ class Ranges:
 
     @classmethod
     def read(cls, sweep: Sweep, curve: Mapping[Fraction, Point]) -> Ranges:
-        """Return the ranges of a curve."""
         return cls(**{level: reach(sweep, curve, holds) for level, holds in LEVELS.items()})
 
 

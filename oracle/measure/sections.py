@@ -390,7 +390,6 @@ SECTIONS: dict[str, Section] = {
 
 
 def scalar(effort: Effort) -> Effort:
-    """Return the effort of the section `scalar`: fewer rays, and no backward errors."""
     return replace(effort, rays=min(effort.rays, SINGLE), sample=0)
 
 

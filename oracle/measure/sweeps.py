@@ -103,7 +103,6 @@ def real(draw: Draw, low: float, high: float) -> Fraction:
 
 
 def frame_of(draw: Draw, oblique: bool) -> Frame:
-    """Return a frame along the coordinate axes, or an oblique one."""
     return draw.pick(OBLIQUE if oblique else ALIGNED)
 
 

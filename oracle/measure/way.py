@@ -87,7 +87,6 @@ class Way:
         return self.lanes > 1 and self.precision != "client"
 
     def answers(self, solid: Solid) -> bool:
-        """Whether it answers a solid, with all of its parts."""
         return types(solid) <= self.solids
 
     def call(self, cases: Sequence[Case]) -> Callable[[], Any]:
@@ -138,7 +137,6 @@ def called(name: str) -> Solve:
 
 
 def missing(names: Iterable[str]) -> list[str]:
-    """Return those of the packages that are not installed."""
     return [name for name in names if find_spec(name) is None]
 
 
@@ -172,7 +170,6 @@ def client(name: str, target: Target) -> Way:
 
 
 def questions(cases: Sequence[Case]) -> list[Question]:
-    """Return the cases as the harness asks them."""
     return [Question(str(i), *case) for i, case in enumerate(cases)]
 
 

@@ -54,7 +54,6 @@ class Scale:
 
     @property
     def places(self) -> tuple[float, ...]:
-        """Return the places that are marked."""
         if self.high <= self.low:
             return (0.0,)
         steps = int(self.high - self.low) if self.whole and self.high - self.low <= 10 else 2
@@ -78,7 +77,6 @@ def shown(value: float, low: float, high: float) -> str:
 
 @cache
 def colours() -> tuple[Rgb, ...]:
-    """Return the scale of colours, from dark to bright."""
     return tuple(_colour(i / (STEPS - 1)) for i in range(STEPS))
 
 
@@ -133,7 +131,6 @@ def extremes(values: Array) -> tuple[float, float] | None:
 
 
 def heat(values: Array, scale: Scale) -> Image.Image:
-    """Return a picture of numbers, with the strip that says what its colours mean."""
     at = scale.place(values)
     table = np.array([*colours(), BACKGROUND, ENDLESS], np.uint8)
     index = np.where(np.isnan(at), STEPS, np.nan_to_num(at) * (STEPS - 1)).round().astype(int)
@@ -149,7 +146,6 @@ def directions(normals: Array, title: str) -> Image.Image:
 
 
 def save(image: Image.Image, path: Path) -> None:
-    """Write a picture as PNG."""
     image.save(path, format="PNG", compress_level=3)
 
 

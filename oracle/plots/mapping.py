@@ -264,7 +264,6 @@ def _squares(axes: Axes, found: Map, places: Sequence[At], colour: str) -> None:
 
 
 def _case(axes: Axes) -> Line2D:
-    """Mark the case in the middle."""
     look: dict[str, Any] = {"marker": "o", "markersize": 9, "markerfacecolor": "none"}
     axes.plot([0], [0], markeredgecolor=PAPER, markeredgewidth=4, zorder=4, **look)
     axes.plot([0], [0], markeredgecolor=INK, markeredgewidth=1.6, zorder=5, **look)

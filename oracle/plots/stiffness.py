@@ -65,7 +65,6 @@ class Axis:
     steps: tuple[Fraction, ...]
 
     def at(self, x: Fraction) -> float:
-        """Return the place of a step."""
         if x:
             return float(self.sweep.power(x))
         powers = [self.sweep.power(step) for step in self.steps if step]
