@@ -28,7 +28,7 @@ from raycert.oracle.measure.catalog import BY_NAME, here
 from raycert.oracle.measure.clock import Race, Time, Timed, wall
 from raycert.oracle.measure.files import Effort, Report
 from raycert.oracle.measure.pictures import costs, numbers
-from raycert.oracle.measure.rays import ARRAYS, LEAVES, Rays, arrays, rays_of
+from raycert.oracle.measure.rays import ARRAYS, LEAVES, Many, arrays, rays_of
 from raycert.oracle.measure.way import missing, questions
 
 Data = dict[str, Any]
@@ -84,7 +84,7 @@ def _batches(report: Report) -> Iterator[list[Data]]:
             yield [{"solid": solid, "scenario": name} | price(name, rays, some, report.effort)]
 
 
-def price(name: str, rays: Rays, some: Sequence[str], effort: Effort) -> Data:
+def price(name: str, rays: Many, some: Sequence[str], effort: Effort) -> Data:
     """Return what rays cost the naive formula and each engine, and the share of lanes by rung."""
     from raycert.oracle.batch.blocks import trace_batch
     from raycert.oracle.measure.arrays import naive

@@ -38,6 +38,7 @@ from raycert.cases.families.sketch import (
     all_of,
     any_of,
     below,
+    cylinder,
     layer,
     less,
     pipe,
@@ -126,6 +127,20 @@ def disc(draw: Draw, reach: float) -> tuple[Fraction, Fraction]:
             return a, b
 
 
+def on_circle(draw: Draw) -> tuple[Fraction, Fraction]:
+    """Return x > 0 and y of a point of the circle of radius 1, within 2^-60 of it."""
+    y = real(draw, -0.875, 0.875)
+    return root(1 - y * y), y
+
+
+def point_of(
+    draw: Draw, body: Body, reach: float = 0.875, low: float = 0.25, high: float = 0.75
+) -> Exact:
+    """Return a point up to `reach` radii from the axis, at a share of the height from z = 0."""
+    a, b = disc(draw, reach)
+    return (a * body.radius, b * body.radius, real(draw, low, high) * body.q[2])
+
+
 def heading(draw: Draw) -> Exact:
     """Return a direction about as long as 1, with a good part across the axis."""
     while True:
@@ -144,12 +159,10 @@ def before(target: Exact, direction: Exact, distance: Number) -> Exact:
 # Distance, aspect, tilt and scale.
 
 
-def drum(draw: Draw) -> tuple[Body, Fraction, Exact]:
+def drum(draw: Draw) -> tuple[Body, Number, Exact]:
     """Return a cylinder about as high as wide, its radius, and a point deep inside."""
-    radius, height = real(draw, 0.5, 1), real(draw, 2, 4)
-    a, b = disc(draw, 0.875)
-    share = real(draw, 0.25, 0.75)
-    return rod((0, 0, 0), (0, 0, height), radius), radius, (a * radius, b * radius, share * height)
+    body = cylinder(real(draw, 0.5, 1), real(draw, 2, 4))
+    return body, body.radius, point_of(draw, body)
 
 
 def far(draw: Draw, number: int, x: Fraction) -> Sample:
@@ -171,15 +184,14 @@ def displaced(draw: Draw, number: int, x: Fraction) -> Sample:
 
 def thin(draw: Draw, number: int, x: Fraction) -> Sample:
     """Meet a needle or a disk, x = r/h, from about its own size, or its smaller one."""
-    radius, height = min(x, Fraction(1)), min(1 / x, Fraction(1))
-    a, b = disc(draw, 0.875)
-    target = (a * radius, b * radius, real(draw, 0.125, 0.875) * height)
+    radius, height = min(x, ONE), min(1 / x, ONE)
+    body = cylinder(radius, height)
+    target = point_of(draw, body, low=0.125, high=0.875)
     place, back, (d, e, f) = frame_of(draw, bool(number % 2)), real(draw, 2, 4), heading(draw)
     near = number % 4 < 2
     direction: Exact = (d * radius, e * radius, f * height) if near else (d, e, f)
     if number % 4 == 2:
         direction = (1, 0, 0) if x < 1 else (0, 0, 1)
-    body = rod((0, 0, 0), (0, 0, height), radius)
     return Sample(body, before(target, direction, back), direction, place)
 
 
@@ -287,8 +299,7 @@ def start(draw: Draw, number: int, x: Fraction) -> Sample:
     if number % 4 < 2:
         direction: Exact = (lean, turn, climb) if tangent else general
         return Sample(_rod(1), (share, 0, draw.whole(-2, 2)), direction, frame_of(draw, False))
-    y, radius = real(draw, -0.875, 0.875), real(draw, 0.5, 1)
-    c, place = root(1 - y * y), frame_of(draw, True)
+    (c, y), radius, place = on_circle(draw), real(draw, 0.5, 1), frame_of(draw, True)
     origin = (c * share * radius, y * share * radius, real(draw, -2, 2))
     along: Exact = (c * lean - y * turn, y * lean + c * turn, climb)
     return Sample(_rod(radius), origin, along if tangent else general, place)

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
-from math import hypot, isclose, sqrt
+from math import dist, hypot
 
 import pytest
 
-from raycert.cases.dice import Dice
 from raycert.cases.formats import BINARY64
-from raycert.cases.model import Cylinder, Ray
+from raycert.cases.model import Cylinder, Ray, Solid
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.levels import Judge
 from raycert.oracle.measure.rays import (
@@ -19,29 +18,24 @@ from raycert.oracle.measure.rays import (
     SETS,
     SOLIDS,
     TIES,
-    Can,
     arrays,
-    heading,
     rays_of,
-    spoke,
-    ten,
-    towards,
 )
 from raycert.oracle.measure.way import Case, exact
 
 SEEDED = {
-    "random": "efb46b7c9d608610",
-    "far": "843f39209d5a416c",
-    "thin": "1050bcbf05a08419",
-    "tilted": "55d84ec716733b14",
-    "tangent": "c512df9783a9ff23",
-    "rim": "110dbe989e1d5bd9",
-    "tiny": "680eb0fbe923d50c",
-    "huge": "09f6bff96d99ffc1",
-    "boolean": "9f0f56e2ca578e63",
-    "ties": "bb5d1b0f92292dd8",
-    "axis-aligned": "bc1925df37c554b1",
-    "touching": "f6d7699836cc3ddb",
+    "random": "b6e9b03fb2913ea5",
+    "far": "e5c0c63f78b1e89b",
+    "thin": "2b013f55a7e1d071",
+    "tilted": "3317acfac4c0a0cb",
+    "tangent": "b3e3390f9c2c167e",
+    "rim": "feed4674be094c01",
+    "tiny": "e1692d4c54c16c66",
+    "huge": "f8e9d32b67919b44",
+    "boolean": "2421125d5304184f",
+    "ties": "5d228ede95a68a63",
+    "axis-aligned": "45621d68e750a750",
+    "touching": "327c39a479dbf01f",
 }
 """The first half of the SHA-256 of 40 cases of each scenario, seed 1."""
 
@@ -66,7 +60,7 @@ def test_a_scenario_has_four_solids_and_hits_and_fewer_rays_are_the_first_of_mor
     assert rays_of(name, 4) == cases[::10]
     assert len(rays_of(name, 5)) == 8
     hits = sum(bool(trace(*case).intervals) for case in cases)
-    assert 15 <= hits <= 40
+    assert 10 <= hits <= 40
     assert name in ("ties", "touching") or hits < 40
 
 
@@ -74,13 +68,18 @@ def test_scenarios_are_as_stiff_as_they_say() -> None:
     far = [hypot(*c.ray.origin) / c.solid.radius for c in rays_of("far", 56)]  # type: ignore[union-attr]
     assert min(far) < 1e3
     assert max(far) > 3e7
-    thin = {c.solid.radius for c in rays_of("thin", 8)}  # type: ignore[union-attr]
-    assert thin == {1e-3, 1e-5, 1e-7, 1e-9}
+    thin = [_radius_over_height(c.solid) for c in rays_of("thin", 4)]
+    assert thin == pytest.approx([1e-3, 1e-5, 1e-7, 1e-9])
     tilts = [_tilt(c) for c in rays_of("tilted", 40)]
     assert 1e-9 < min(tilts) < 1e-7
     assert 1e-3 < max(tilts) < 0.1
     large = [c.solid.radius for c in rays_of("huge", 8)]  # type: ignore[union-attr]
     assert min(large) > 1e149
+
+
+def _radius_over_height(solid: Solid) -> float:
+    assert isinstance(solid, Cylinder)
+    return solid.radius / dist(solid.p, solid.q)
 
 
 def _tilt(case: Case) -> float:
@@ -101,26 +100,6 @@ def test_a_tie_is_a_hair_above_the_middle_of_two_doubles() -> None:
         assert exact.ulps(down, exact.exact[0][0]) == exact.ulps(up, exact.exact[0][0]) == 0.5
         assert exact.expected[0][0] == down
         assert Judge(*case, BINARY64).expected[0][0] == up
-
-
-def test_powers_of_ten_are_correctly_rounded() -> None:
-    assert [ten(k) for k in (-3, 0, 1, 5, 15)] == [1000.0, 1.0, 0.1, 1e-5, 1e-15]
-
-
-def test_shapes_are_where_they_say() -> None:
-    dice = Dice("shapes")
-    can = Can.of(dice, 0.5, 3.0)
-    way = spoke(dice)
-    assert isclose(hypot(*way), 1)
-    assert isclose(hypot(*heading(dice)), 1)
-    for rise, across in ((0.0, 1.0), (0.5, 0.3), (1.2, 2.0)):
-        x = can.point(rise, across, way)
-        y = [a - b for a, b in zip(x, can.solid.p, strict=True)]
-        height = sum(a * b for a, b in zip(y, can.n, strict=True))
-        assert isclose(height, 3 * rise, abs_tol=1e-12)
-        assert isclose(sqrt(hypot(*y) ** 2 - height**2), 0.5 * across, rel_tol=1e-9)
-    ray = towards((1.0, 2.0, 3.0), (2.0, 4.0, 5.0), 0.5)
-    assert ray.direction == (0.5, 1.0, 1.0)
 
 
 def test_each_ray_of_the_touching_ones_touches() -> None:

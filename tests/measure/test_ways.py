@@ -145,9 +145,9 @@ def test_the_determinant_breaks_near_parallel_and_the_shift_on_thin_solids() -> 
 
 
 def test_the_q_root_breaks_where_a_ray_starts_at_a_tangent() -> None:
-    cases = rays_of("tangent", 200)
-    assert worst("q-root", cases[:50], "strict") > 1e12
-    assert worst("seed", cases[:50], "strict") <= 2
+    cases = rays_of("tangent", 400, 2)[100:150]
+    assert worst("q-root", cases, "strict") > 1e12
+    assert worst("seed", cases, "strict") <= 2
 
 
 def test_the_curves_solve_the_same_quadratic() -> None:
