@@ -132,13 +132,13 @@ def _show_sweep(found: Stress, sweep: Sweep, console: Console) -> None:
             continue
         curve = found.curve(sweep.name, way.name).values()
         worst = f"{max(point.strict for point in curve):.2g}"
-        if ranges.exact.whole:
+        if ranges["exact"].whole:
             exact.append(way.name)
-        elif ranges.stable.whole:
+        elif ranges["stable"].whole:
             whole.append(f"{way.name} {worst}")
         else:
             share = sum(p.wrong * p.count for p in curve) / sum(p.count for p in curve)
-            levels = (spelled(one, sweep) for one in (ranges.stable, ranges.sound))
+            levels = (spelled(one, sweep) for one in (ranges["stable"], ranges["sound"]))
             lines.append([way.name, *levels, worst, f"{share:.1%}"])
     if not (lines or whole or exact):
         return

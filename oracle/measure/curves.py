@@ -23,7 +23,7 @@ from raycert.oracle.measure.causes import Cause, diagnose
 from raycert.oracle.measure.errors import Referee
 from raycert.oracle.measure.facets import CASTERS, Sides, slope
 from raycert.oracle.measure.files import as_csv, finite
-from raycert.oracle.measure.ranges import LEVELS, Ground, Point, Range, Ranges, spelled
+from raycert.oracle.measure.ranges import LEVELS, Ground, Point, Range, Ranges, ranges_of, spelled
 from raycert.oracle.measure.sweeps import SWEEPS, Sample, Sweep
 from raycert.oracle.measure.way import Answered, Solve, Way
 
@@ -193,7 +193,7 @@ class Stress:
         curve, grounds = self.curve(sweep.name, name), self.grounds.get(sweep.name, {})
         if not curve or len(grounds) < len(self.plan.steps(sweep)) or len(curve) < len(grounds):
             return None
-        return Ranges.read(sweep, curve)
+        return ranges_of(sweep, curve)
 
     def whole(self) -> Iterator[tuple[Sweep, Way, Ranges]]:
         """Yield each sweep and way whose curve is whole, with its ranges."""
@@ -207,7 +207,7 @@ class Stress:
         return [
             (way, self.plan.stop(sweep, x), self.curve(sweep.name, way.name))
             for sweep, way, ranges in self.whole()
-            for x in ranges.stable.broken
+            for x in ranges["stable"].broken
         ]
 
 
@@ -313,7 +313,7 @@ def range_rows(stress: Stress) -> list[Data]:
     """Return the ranges and causes of each sweep and way whose curve is whole."""
     return [
         {"sweep": sweep.name, "method": way.name}
-        | {level: _range(getattr(ranges, level), sweep) for level in LEVELS}
+        | {level: _range(ranges[level], sweep) for level in LEVELS}
         | {
             "causes": [
                 {
@@ -344,10 +344,10 @@ def notes(stress: Stress, names: Sequence[str]) -> list[str]:
     """Return what breaks, in lines for people: sweep, ways, where they are stable, and why."""
     alike: dict[tuple[str, str, str], list[str]] = {}
     for sweep, way, ranges in stress.whole():
-        if way.name in names and not ranges.stable.whole:
+        if way.name in names and not ranges["stable"].whole:
             causes = stress.causes.get((sweep.name, way.name), [])
             why = "; ".join(dict.fromkeys(cause.text for cause in causes))
-            where = spelled(ranges.stable, sweep)
+            where = spelled(ranges["stable"], sweep)
             alike.setdefault((sweep.title, where, why), []).append(way.name)
     return [
         f"{title}: {', '.join(ways)} stable {where}" + (f"; {why}" if why else "")

@@ -152,6 +152,15 @@ def referees(cases: Iterable[Case]) -> list[Referee]:
     return [Referee.of(case) for case in cases]
 
 
+def backward(each: Iterable[tuple[Referee, Answered]]) -> tuple[list[float], list[float]]:
+    """Return the strict and the squared k of answers."""
+    known = list(each)
+    return (
+        [referee.backward(answer, "strict") for referee, answer in known],
+        [referee.backward(answer, "squared") for referee, answer in known],
+    )
+
+
 def quantile(figures: Iterable[float], share: float) -> float:
     """Return the least of one or more figures that so many do not exceed."""
     ranked = sorted(figures)

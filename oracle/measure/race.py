@@ -14,7 +14,7 @@ from typing import Any
 
 from raycert.cases.dice import Dice
 from raycert.oracle.measure.clock import Race, Time
-from raycert.oracle.measure.errors import Error, Referee, Spread, referees
+from raycert.oracle.measure.errors import Error, Referee, Spread, backward, referees
 from raycert.oracle.measure.files import Effort, Report
 from raycert.oracle.measure.rays import rays_of
 from raycert.oracle.measure.way import Answered, Case, Way
@@ -24,6 +24,7 @@ BASE = "oracle"
 MESHES = 16
 """A mesh is far from right on every ray, in its own way: that many tell its backward error."""
 SHARES = ("median", "p99", "largest")
+TIMES = ("min", "median", "iqr", "passes", "rays_per_pass")
 SPREADS = ("ulps", "ulps_counted", "radii_counted", "strict", "squared")
 
 
@@ -61,20 +62,13 @@ class Figures:
 
     def as_json(self) -> dict[str, Any]:
         """Return the row as plain data; null is infinite, or not measured."""
-        t = self.time
         return {
             "scenario": self.scenario,
             "method": self.way.name,
             "does": self.way.does,
             "family": self.way.precision,
             "rays": self.rays,
-            "seconds_per_ray": {
-                "min": t.best,
-                "median": t.median,
-                "iqr": t.iqr,
-                "passes": t.passes,
-                "rays_per_pass": t.rays,
-            },
+            "seconds_per_ray": dict(zip(TIMES, self.time, strict=True)),
             "ratio_to_oracle": self.ratio,
             "correctly_rounded": self.exact,
             "wrong_counts": self.wrong,
@@ -106,7 +100,7 @@ def figures(
     time: Time,
     errors: Sequence[Error],
     radii: Sequence[float] = (),
-    backward: tuple[Sequence[float], Sequence[float]] = ((), ()),
+    sampled: tuple[Sequence[float], Sequence[float]] = ((), ()),
 ) -> Figures:
     """Return the row of a way from its errors, and the strict and squared k of a sample."""
     ends = [e for e in errors if not e.idle]
@@ -123,9 +117,9 @@ def figures(
         ulps=Spread.of([e.ulps for e in ends]),
         ulps_counted=Spread.of([e.ulps for e in ends if e.counts]),
         radii_counted=Spread.of(radii),
-        strict=Spread.of(backward[0]),
-        squared=Spread.of(backward[1]),
-        sample=len(backward[0]),
+        strict=Spread.of(sampled[0]),
+        squared=Spread.of(sampled[1]),
+        sample=len(sampled[0]),
     )
 
 
@@ -203,10 +197,7 @@ class Course:
             size = MESHES if way.precision == "mesh" else len(self.cases)
             at = sample(len(self.cases), min(self.effort.sample, size))
             each = [(self.referees[i], self.answers[way.name][i]) for i in at]
-            self.backward[way.name] = (
-                [referee.backward(answer, "strict") for referee, answer in each],
-                [referee.backward(answer, "squared") for referee, answer in each],
-            )
+            self.backward[way.name] = backward(each)
             advance()
 
     def rows(self) -> list[Figures]:
@@ -223,8 +214,7 @@ class Course:
         each = list(zip(self.referees, self.answers[way.name], strict=True))
         errors = [referee.forward(answer) for referee, answer in each]
         radii = [r.radii(a) for (r, a), e in zip(each, errors, strict=True) if e.counts and a]
-        backward = self.backward.get(way.name, ([], []))
-        return figures(self.name, way, time, errors, radii, backward)
+        return figures(self.name, way, time, errors, radii, self.backward.get(way.name, ([], [])))
 
 
 def sample(rays: int, size: int) -> list[int]:

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from raycert.oracle.measure.errors import Error, Referee, quantile
+from raycert.oracle.measure.errors import Error, Referee, backward, quantile
 from raycert.oracle.measure.sweeps import Sweep
 from raycert.oracle.measure.way import Answered
 
@@ -18,6 +18,10 @@ MOST = 64
 """The k that `sound` and `stable` allow."""
 HIGH = 0.9
 """The quantile beside the maximum."""
+
+
+def _worst(figures: Sequence[float]) -> tuple[float, float]:
+    return max(figures), quantile(figures, HIGH)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,28 +57,14 @@ class Point:
     ) -> Point:
         """Return the point of one or more answers: their errors, forward and backward."""
         ulps = [e.ulps for e in errors if e.counts]
-        return cls(
-            len(errors),
-            max(strict),
-            quantile(strict, HIGH),
-            max(squared),
-            quantile(squared, HIGH),
-            max(ulps, default=None),
-            quantile(ulps, HIGH) if ulps else None,
-            sum(e.pairs < 0 for e in errors),
-            sum(e.pairs > 0 for e in errors),
-            sum(e.failed for e in errors),
-            sum(e.exact for e in errors),
-        )
+        worst = (*_worst(strict), *_worst(squared), *(_worst(ulps) if ulps else (None, None)))
+        counts = ((e.pairs < 0, e.pairs > 0, e.failed, e.exact) for e in errors)
+        return cls(len(errors), *worst, *map(sum, zip(*counts, strict=True)))
 
     @classmethod
     def over(cls, referees: Sequence[Referee], answers: Sequence[Answered]) -> Point:
         each = list(zip(referees, answers, strict=True))
-        return cls.of(
-            [referee.forward(answer) for referee, answer in each],
-            [referee.backward(answer, "strict") for referee, answer in each],
-            [referee.backward(answer, "squared") for referee, answer in each],
-        )
+        return cls.of([referee.forward(answer) for referee, answer in each], *backward(each))
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,9 +78,8 @@ class Ground:
 
     @classmethod
     def over(cls, referees: Sequence[Referee]) -> Ground:
-        floors = [referee.floor for referee in referees]
         decisive = sum(referee.decides for referee in referees)
-        return cls(len(referees), max(floors), quantile(floors, HIGH), decisive)
+        return cls(len(referees), *_worst([referee.floor for referee in referees]), decisive)
 
 
 Holds = Callable[[Point], bool]
@@ -119,6 +108,10 @@ class Range:
         return not self.broken
 
 
+Ranges = Mapping[str, Range]
+"""By level, of one way on one sweep."""
+
+
 def sides(steps: Sequence[Fraction], mild: Fraction) -> tuple[list[Fraction], list[Fraction]]:
     """Return the steps before and after the mild one on the axis, each from there outward."""
     middle = steps.index(mild)
@@ -137,17 +130,9 @@ def reach(sweep: Sweep, curve: Mapping[Fraction, Point], holds: Callable[[Point]
     return Range(ends[0], ends[1], tuple(broken))
 
 
-@dataclass(frozen=True, slots=True)
-class Ranges:
-    """The ranges of one way on one sweep."""
-
-    stable: Range
-    sound: Range
-    exact: Range
-
-    @classmethod
-    def read(cls, sweep: Sweep, curve: Mapping[Fraction, Point]) -> Ranges:
-        return cls(**{level: reach(sweep, curve, holds) for level, holds in LEVELS.items()})
+def ranges_of(sweep: Sweep, curve: Mapping[Fraction, Point]) -> Ranges:
+    """Return the ranges of a curve, by level."""
+    return {level: reach(sweep, curve, holds) for level, holds in LEVELS.items()}
 
 
 def spelled(steps: Range, sweep: Sweep) -> str:

@@ -167,8 +167,9 @@ def _boolean(draw: Draw, number: int) -> Rays:
     radius, height = body.radius, body.q[2]
     center, far = point_of(draw, body), point_of(draw, body)
     other = rod(far, plus(far, heading(draw), height), real(draw, 0.2, 2))
-    ball, slab = Ball(center, radius), layer((0, 0, height * 3 / 10), (0, 0, height * 3 / 5))
-    half, tube = below(center, heading(draw)), pipe(center, plus(center, heading(draw)), radius / 2)
+    ball, slab = Ball(center, radius), layer((0, 0, height * two(-2)), (0, 0, height * two(-1)))
+    half = below(center, heading(draw))
+    tube = pipe(center, plus(center, heading(draw)), radius * two(-1))
     tree = (
         less(body, ball),
         any_of(body, other, ball),

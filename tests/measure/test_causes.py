@@ -40,7 +40,7 @@ from raycert.oracle.measure.causes import (
     upright,
 )
 from raycert.oracle.measure.errors import Error, Referee
-from raycert.oracle.measure.ranges import Point, Ranges
+from raycert.oracle.measure.ranges import Point, ranges_of
 from raycert.oracle.measure.sweeps import SWEEPS, Sample, Sweep
 from raycert.oracle.measure.way import Answered, Case, Solve
 
@@ -89,7 +89,7 @@ def told(sweep: Sweep, solve: Solve, steps: Sequence[Fraction], count: int = 8) 
     for x in steps:
         asked = [one for s in sweep.samples(x, 1, count) if (one := s.referee())]
         curve[x] = Point.over(asked, solve([one.case for one in asked]))
-    [first] = Ranges.read(sweep, curve).stable.broken
+    [first] = ranges_of(sweep, curve)["stable"].broken
     return diagnose(sweep, curve, first, solve, lambda x: sweep.samples(x, 1, count))
 
 

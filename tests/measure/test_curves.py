@@ -106,7 +106,7 @@ def test_a_run_has_every_step_and_the_causes_of_what_broke() -> None:
     ranges = report.ranges(SWEEPS["far"], "textbook")
     assert ranges is not None
     [cause] = report.causes["far", "textbook"]
-    assert ranges.stable.broken == (cause.step,)
+    assert ranges["stable"].broken == (cause.step,)
     assert cause.text == "cancellation in the discriminant"
     assert set(report.causes) == {("far", "textbook")}
     assert len(causes) == len(report.broken()) == 1

@@ -11,7 +11,7 @@ from raycert.cases.families.sketch import ten
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, Ray
 from raycert.oracle.measure.errors import Error, Referee
-from raycert.oracle.measure.ranges import Ground, Point, Ranges, reach, sides, spelled
+from raycert.oracle.measure.ranges import Ground, Point, ranges_of, reach, sides, spelled
 from raycert.oracle.measure.sweeps import SWEEPS, Sweep
 from raycert.oracle.measure.way import Answered
 
@@ -42,12 +42,12 @@ def curve(sweep: Sweep, bad: dict[int, float]) -> dict[Fraction, Point]:
 def test_a_range_ends_at_the_first_step_that_fails(
     sweep: Sweep, bad: dict[int, float], text: str, broken: tuple[int, ...]
 ) -> None:
-    found = Ranges.read(sweep, curve(sweep, bad))
-    assert spelled(found.stable, sweep) == text
-    assert found.stable.broken == tuple(ten(k) for k in broken)
-    assert found.stable.whole == (not broken)
-    assert spelled(found.sound, sweep) == "all"
-    assert spelled(found.exact, sweep) == "nowhere"
+    found = ranges_of(sweep, curve(sweep, bad))
+    assert spelled(found["stable"], sweep) == text
+    assert found["stable"].broken == tuple(ten(k) for k in broken)
+    assert found["stable"].whole == (not broken)
+    assert spelled(found["sound"], sweep) == "all"
+    assert spelled(found["exact"], sweep) == "nowhere"
 
 
 def test_a_range_needs_only_the_steps_that_were_run() -> None:
