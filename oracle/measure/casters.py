@@ -19,16 +19,16 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from raycert.cases.model import Cylinder, Difference, Solid
 from raycert.cases.scene import Camera, Scene, frame, pixel_ray
 from raycert.cases.vectors import along, minus, plus, times
+from raycert.oracle.batch.blocks import Batch, trace_batch
+from raycert.oracle.batch.lanes import Floats
 from raycert.oracle.measure.rays import arrays
-
-if TYPE_CHECKING:
-    from raycert.oracle.batch.blocks import Batch
-    from raycert.oracle.batch.lanes import Floats
 
 CASTS = ("scattered", "camera", "pipe")
 QUESTIONS = ("first", "all")
@@ -62,16 +62,13 @@ class Cast:
         return self.outer if self.inner is None else Difference((self.outer, self.inner))
 
     def exact(self, question: str) -> RayHits:
-        import numpy as np
-
         assert self.truth is not None
         ray = np.repeat(np.arange(len(self.origins)), self.truth.counts)
         if question == "first":
             leading = np.diff(ray, prepend=-1) != 0
             return RayHits(ray[leading], self.truth.enter[leading])
-        return RayHits(
-            np.repeat(ray, 2), np.column_stack([self.truth.enter, self.truth.leave]).ravel()
-        )
+        both = np.column_stack([self.truth.enter, self.truth.leave])
+        return RayHits(np.repeat(ray, 2), both.ravel())
 
 
 def cast(name: str, size: tuple[int, int], seed: int) -> Cast:
@@ -79,44 +76,33 @@ def cast(name: str, size: tuple[int, int], seed: int) -> Cast:
     some = arrays("cylinder", "random", size[0] * size[1], seed)
     outer = some.solid
     assert isinstance(outer, Cylinder)
-    origins, directions, scene = some.origins, some.directions, None
+    origins, directions, scene, inner = some.origins, some.directions, None, None
     if name == "camera":
-        scene = Scene((("cylinder", outer),), camera(outer), size)
+        at = times(0.5, plus(outer.p, outer.q))
+        eye = along(at, DISTANCE, (0.5, -0.75, 0.25))
+        seen_from = Camera("perspective", eye, at, (0.0, 0.0, 1.0), ANGLE)
+        scene = Scene((("cylinder", outer),), seen_from, size)
         origins, directions = _pixels(scene)
-    inner = hole(outer) if name == "pipe" else None
+    elif name == "pipe":
+        beyond = times(0.25, minus(outer.q, outer.p))
+        inner = Cylinder(minus(outer.p, beyond), plus(outer.q, beyond), outer.radius / 2)
     return _from_outside(Cast(name, outer, inner, origins, directions, scene))
 
 
-def _from_outside(some: Cast) -> Cast:
-    from raycert.oracle.batch.blocks import trace_batch
+def _pixels(scene: Scene) -> tuple[Floats, Floats]:
+    seen_from, (width, height) = frame(scene.camera), scene.size
+    rays = [pixel_ray(seen_from, scene.size, i, j) for j in range(height) for i in range(width)]
+    return np.array([ray.origin for ray in rays]), np.array([ray.direction for ray in rays])
 
+
+def _from_outside(some: Cast) -> Cast:
     lists = trace_batch(some.solid, some.origins, some.directions, engine="numpy")
     inside = lists.enter[lists.offsets[:-1].clip(max=max(len(lists.enter) - 1, 0))] == 0
     keep = ~(inside & (lists.counts > 0))
     if keep.all():
         return replace(some, truth=lists)
-    return _from_outside(
-        replace(some, origins=some.origins[keep], directions=some.directions[keep])
-    )
-
-
-def hole(outer: Cylinder) -> Cylinder:
-    beyond = times(0.25, minus(outer.q, outer.p))
-    return Cylinder(minus(outer.p, beyond), plus(outer.q, beyond), outer.radius / 2)
-
-
-def camera(outer: Cylinder) -> Camera:
-    at = times(0.5, plus(outer.p, outer.q))
-    eye = along(at, DISTANCE, (0.5, -0.75, 0.25))
-    return Camera("perspective", eye, at, (0.0, 0.0, 1.0), ANGLE)
-
-
-def _pixels(scene: Scene) -> tuple[Floats, Floats]:
-    import numpy as np
-
-    seen_from, (width, height) = frame(scene.camera), scene.size
-    rays = [pixel_ray(seen_from, scene.size, i, j) for j in range(height) for i in range(width)]
-    return np.array([ray.origin for ray in rays]), np.array([ray.direction for ray in rays])
+    outside = replace(some, origins=some.origins[keep], directions=some.directions[keep])
+    return _from_outside(outside)
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,9 +128,7 @@ class Caster:
 
 
 def _reference(cast: Cast, question: str) -> Call:
-    from raycert.cases.scene import Scene
-
-    if isinstance(cast.scene, Scene):
+    if cast.scene is not None:
         return _planned(cast, cast.scene, question)
     intersect = import_module("raycert.reference.arrays.tracer").intersect
     solid, u, v = cast.solid, cast.origins, cast.directions
@@ -152,15 +136,13 @@ def _reference(cast: Cast, question: str) -> Call:
     return Call("intersect", lambda: intersect(solid, u, v), read)
 
 
-def _planned(cast: Cast, scene: Any, question: str) -> Call:
+def _planned(cast: Cast, scene: Scene, question: str) -> Call:
     plan = import_module("raycert.reference.arrays.plan").plan
     see = import_module("raycert.reference.arrays.picture")
     if question == "all":
         return Call("plan, lists", lambda: see.lists(plan(scene, "lists")), _all_of_padded)
 
     def read(picture: Any) -> RayHits:
-        import numpy as np
-
         t = picture.values.ravel() / np.linalg.norm(cast.directions, axis=1)
         return _where(t, ~np.isnan(t))
 
@@ -174,8 +156,6 @@ def _first_of_padded(found: Any) -> RayHits:
 
 
 def _all_of_padded(found: Any) -> RayHits:
-    import numpy as np
-
     ray, column = np.nonzero(np.arange(found.enter.shape[1]) < found.count[:, None])
     t = np.column_stack([found.enter[ray, column], found.leave[ray, column]])
     return RayHits(np.repeat(ray, 2), t.ravel())
@@ -183,14 +163,11 @@ def _all_of_padded(found: Any) -> RayHits:
 
 def _where(t: Any, hit: Any) -> RayHits:
     """Return the hits of an array that has one t for each ray, where `hit` says so."""
-    import numpy as np
-
     ray = np.flatnonzero(hit)
     return RayHits(ray, t[ray])
 
 
 def _oracle(cast: Cast, question: str) -> Call:
-    trace_batch = import_module("raycert.oracle.batch.blocks").trace_batch
     solid, u, v = cast.solid, cast.origins, cast.directions
     return Call(
         "trace_batch",
@@ -225,15 +202,12 @@ def _raysect(cast: Cast, question: str) -> Call:
             found.append(mine)
         return found
 
-    if question == "first":
-        return Call("hit", first, _of_lists)
-    return Call("next_intersection", every, _of_lists)
+    name, run = ("hit", first) if question == "first" else ("next_intersection", every)
+    return Call(name, run, _of_lists)
 
 
 def _of_raysect(solid: Cylinder) -> Any:
     """Return a cylinder of raysect: along z from its origin, turned and moved to where it is."""
-    import numpy as np
-
     p, q = np.array(solid.p), np.array(solid.q)
     height = np.linalg.norm(q - p)
     n = (q - p) / height
@@ -247,8 +221,6 @@ def _of_raysect(solid: Cylinder) -> Any:
 
 
 def _of_lists(found: list[list[float]]) -> RayHits:
-    import numpy as np
-
     ray = np.repeat(np.arange(len(found)), [len(one) for one in found])
     return RayHits(ray, np.array([t for one in found for t in one], float))
 
@@ -256,8 +228,6 @@ def _of_lists(found: list[list[float]]) -> RayHits:
 def _mujoco(cast: Cast, question: str) -> Call | None:
     if question != "first" or cast.inner is not None:
         return None
-    import numpy as np
-
     mujoco = import_module("mujoco")
     ends = " ".join(map(repr, (*cast.outer.p, *cast.outer.q)))
     geom = f'<geom type="cylinder" fromto="{ends}" size="{cast.outer.radius!r}"/>'
@@ -294,8 +264,6 @@ def _mesh(cast: Cast) -> Any:
 
 
 def _trimesh(cast: Cast, question: str) -> Call:
-    import numpy as np
-
     caster = import_module("trimesh.ray.ray_pyembree").RayMeshIntersector(_mesh(cast))
     u, v, every = cast.origins, cast.directions, question == "all"
 
@@ -311,8 +279,6 @@ def _trimesh(cast: Cast, question: str) -> Call:
 def _embreex(cast: Cast, question: str) -> Call | None:
     if question != "first":
         return None
-    import numpy as np
-
     mesh, scene = _mesh(cast), import_module("embreex.rtcore_scene").EmbreeScene()
     triangles = import_module("embreex.mesh_construction").TriangleMesh
     triangles(scene, mesh.vertices.astype(np.float32), mesh.faces.astype(np.int32))
@@ -338,8 +304,6 @@ CASTERS = (
 
 def check(found: RayHits, truth: RayHits, rays: int) -> tuple[float, float | None]:
     """Return the share of the rays that are wrong, and the largest relative error of the rest."""
-    import numpy as np
-
     counts = [np.bincount(hits.ray, minlength=rays) for hits in (found, truth)]
     right = counts[0] == counts[1]
     right[found.ray[~np.isfinite(found.t)]] = False
@@ -349,8 +313,6 @@ def check(found: RayHits, truth: RayHits, rays: int) -> tuple[float, float | Non
 
 
 def _sorted(hits: RayHits, keep: Any) -> Any:
-    import numpy as np
-
     kept = keep[hits.ray]
     ray, t = hits.ray[kept], hits.t[kept]
     return t[np.lexsort((t, ray))]

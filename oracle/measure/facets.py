@@ -18,6 +18,7 @@ from fractions import Fraction
 from functools import lru_cache
 from importlib import import_module
 from math import log2, nan
+from statistics import linear_regression
 from typing import Any
 
 from raycert.cases.families.frames import UPRIGHT
@@ -165,11 +166,5 @@ def curves(
 
 def slope(sides: Sequence[Sides], caster: str) -> float:
     """Return the slope of log error over log n by least squares; NaN for less than two points."""
-    points = [
-        (log2(one.n), log2(one.error)) for one in sides if one.caster == caster and one.error > 0
-    ]
-    if len(points) < 2:
-        return nan
-    mx, my = (sum(p[i] for p in points) / len(points) for i in (0, 1))
-    spread = sum((x - mx) ** 2 for x, _ in points)
-    return sum((x - mx) * (y - my) for x, y in points) / spread
+    points = [(log2(x.n), log2(x.error)) for x in sides if x.caster == caster and x.error > 0]
+    return linear_regression(*zip(*points, strict=True)).slope if len(points) > 1 else nan
