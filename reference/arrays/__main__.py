@@ -16,38 +16,30 @@ from typing import Any
 
 import numpy as np
 
-from raycert.cases.scene import Scene, read_scene
+from raycert.cases.scene import read_scene
 from raycert.reference.arrays.picture import lists, picture
-from raycert.reference.arrays.plan import ITEMS, Plan, plan
+from raycert.reference.arrays.plan import ITEMS, plan
 
 
-def render(scene: Scene, task: dict[str, Any]) -> bytes:
+def render(task: dict[str, Any]) -> bytes:
     """Return the arrays of a picture, and what the plan left out."""
     began = perf_counter()
     show, off = task["show"], frozenset(task.get("off", ()))
     if unknown := off - set(ITEMS):
         print(f"no item {', '.join(sorted(unknown))}; items: {', '.join(ITEMS)}", file=sys.stderr)
         raise SystemExit(2)
-    made = plan(scene, show, off, task.get("tracer", "reference"))
-    arrays: dict[str, np.ndarray[Any, Any]]
+    ready = plan(read_scene(task["scene"]), show, off, task.get("tracer", "reference"))
     if show == "lists":
-        found = lists(made)
-        arrays = {"enter": found.enter, "leave": found.leave, "count": found.count}
-        hits = int(np.count_nonzero(found.count))
+        pairs = lists(ready)
+        arrays = {"enter": pairs.enter, "leave": pairs.leave, "count": pairs.count}
+        hits = int(np.count_nonzero(pairs.count))
     else:
-        seen = picture(made, show)
-        arrays, hits = {"values": seen.values}, seen.hits
-    about = {"hits": hits, "seconds": perf_counter() - began, "left_out": _left_out(made)}
-    return _packed(arrays | {"about": np.array(json.dumps(about))})
-
-
-def _left_out(made: Plan) -> list[str]:
-    return [item.name for item in made.items if item.name in made.on]
-
-
-def _packed(arrays: dict[str, np.ndarray[Any, Any]]) -> bytes:
+        values, hits = picture(ready, show)
+        arrays = {"values": values}
+    left_out = [name for name in ITEMS if name in ready.on]
+    about = {"hits": hits, "seconds": perf_counter() - began, "left_out": left_out}
     file = BytesIO()
-    np.savez(file, allow_pickle=False, **arrays)
+    np.savez(file, allow_pickle=False, **arrays, about=np.array(json.dumps(about)))
     return file.getvalue()
 
 
@@ -55,7 +47,7 @@ def main() -> None:
     """Do the task on standard input."""
     task = json.load(sys.stdin)
     assert task["task"] == "render"
-    sys.stdout.buffer.write(render(read_scene(task["scene"]), task))
+    sys.stdout.buffer.write(render(task))
 
 
 if __name__ == "__main__":

@@ -24,7 +24,7 @@ class Lists(NamedTuple):
     lanes: int
 
     def where(self, keep: Mask) -> Lists:
-        """Return the pairs that are kept."""
+        """Return some of the pairs."""
         return Lists(self.lane[keep], self.enter[keep], self.leave[keep], self.lanes)
 
     def counts(self) -> Whole:

@@ -15,11 +15,20 @@ turned against the ray, which is outward where a ray enters, also through the fa
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Slab, Sphere, Union, Vector
+from raycert.cases.model import (
+    Cylinder,
+    HalfSpace,
+    InfiniteCylinder,
+    Slab,
+    Sphere,
+    Union,
+    Vector,
+    axis,
+)
 from raycert.reference.arrays.lists import Lists, Padded, padded
 from raycert.reference.arrays.plan import Plan, Show
 from raycert.reference.arrays.tracer import (
@@ -36,38 +45,34 @@ from raycert.reference.arrays.tracer import (
 from raycert.reference.arrays.vectors import Array, Mask, Vectors, present, take
 
 
-@dataclass(frozen=True, slots=True)
-class Picture:
+class Picture(NamedTuple):
     """The values of every pixel, (height, width) or (height, width, 3), and how many rays hit."""
 
     values: Array
     hits: int
 
 
+@np.errstate(all="ignore")
 def picture(plan: Plan, show: Show) -> Picture:
     """Return what a plan's scene looks like."""
     width, height = plan.size
     deep = (3,) if show == "normal" else ()
     values = np.full((width * height, *deep), np.nan)
     hits = 0
-    with np.errstate(all="ignore"):
-        for i, tile in enumerate(plan.tiles):
-            seen, hit = _tile(plan, plan.bundle(i), show)
-            values[tile.pixels(width)] = seen
-            hits += hit
+    for i, tile in enumerate(plan.tiles):
+        values[tile.pixels(width)], hit = _tile(plan, plan.bundle(i), show)
+        hits += hit
     return Picture(values.reshape(height, width, *deep), hits)
 
 
+@np.errstate(all="ignore")
 def lists(plan: Plan) -> Padded:
     """Return the interval list of every pixel, row by row of the picture."""
-    with np.errstate(all="ignore"):
-        blocks = [solve(plan.root, plan.bundle(i)) for i in range(len(plan.tiles))]
+    blocks = joined([solve(plan.root, plan.bundle(i)) for i in range(len(plan.tiles))])
     width, height = plan.size
-    pixel = np.concatenate([tile.pixels(width) for tile in plan.tiles])
-    found = joined(blocks)
-    lane = pixel[found.lane]
+    lane = np.concatenate([tile.pixels(width) for tile in plan.tiles])[blocks.lane]
     order = np.argsort(lane, kind="stable")
-    return padded(Lists(lane[order], found.enter[order], found.leave[order], width * height))
+    return padded(Lists(lane[order], blocks.enter[order], blocks.leave[order], width * height))
 
 
 def enters(part: Part, rays: Bundle) -> Array:
@@ -91,13 +96,13 @@ def _tile(plan: Plan, rays: Bundle, show: Show) -> tuple[Array, int]:
         t = enters(root, rays) if plan.switches.first else solve(root, rays).first()
         hits = int(np.count_nonzero(~np.isnan(t)))
         return (normals(root, rays, t) if show == "normal" else t * speed), hits
-    found = solve(plan.root, rays)
-    count = found.counts()
+    pairs = solve(plan.root, rays)
+    count = pairs.counts()
     hits = int(np.count_nonzero(count))
     if show == "count":
         return count.astype(float), hits
-    inside = (found.leave - found.enter) * take(speed, found.lane)
-    total = np.bincount(found.lane, inside, rays.lanes)
+    inside = (pairs.leave - pairs.enter) * take(speed, pairs.lane)
+    total = np.bincount(pairs.lane, inside, rays.lanes)
     return np.where(count > 0, total, np.nan), hits
 
 
@@ -112,73 +117,67 @@ def normals(root: Part, rays: Bundle, t: Array) -> Array:
     The lists of the leaves are those that the bundle remembers from finding t.
     """
     origin, direction = _rows(rays.origin, rays.lanes), _rows(rays.direction, rays.lanes)
-    found = np.full((rays.lanes, 3), np.nan)
+    normal = np.full((rays.lanes, 3), np.nan)
     free = t > 0
     for part in walk(root):
         if part.parts or part.index not in rays.lists:
             continue
         lanes = np.flatnonzero(_ends_at(rays.lists[part.index], t) & free)
-        if not lanes.size:
-            continue
-        free[lanes] = False
-        x = origin[lanes] + t[lanes, None] * direction[lanes]
-        found[lanes] = _at(part, rays.only(lanes), t[lanes], x)
-    against: Mask = np.sum(found * direction, axis=1) > 0
-    found[against] *= -1
-    unit: Array = found / np.sqrt(np.sum(found * found, axis=1))[:, None]
+        if lanes.size:
+            free[lanes] = False
+            x = origin[lanes] + t[lanes, None] * direction[lanes]
+            normal[lanes] = _at(part, rays.only(lanes), t[lanes], x)
+    against: Mask = np.sum(normal * direction, axis=1) > 0
+    normal[against] *= -1
+    unit: Array = normal / np.sqrt(np.sum(normal * normal, axis=1))[:, None]
     return unit
 
 
 def _at(part: Part, rays: Bundle, t: Array, x: Array) -> Array:
     """Return a normal of a leaf, of any length, at points that are the ends t of its lists."""
-    found = np.full(x.shape, np.nan)
+    normal = np.full(x.shape, np.nan)
     free = np.ones(t.size, bool)
-    for pairs, axis, center in _faces(part, rays):
+    for pairs, along, center in _faces(part, rays):
         here = _ends_at(pairs, t) & free
-        found[here] = _normal(x[here], axis, center)
+        normal[here] = _normal(x[here], along, center)
         free &= ~here
-    return found
+    return normal
 
 
 def _ends_at(pairs: Lists, t: Array) -> Mask:
-    """Tell for each lane whether an interval begins or ends at t."""
-    found = np.zeros(pairs.lanes, bool)
+    """Return for each lane whether an interval begins or ends at t."""
+    there = np.zeros(pairs.lanes, bool)
     for ends in (pairs.enter, pairs.leave):
-        found[pairs.lane[ends == t[pairs.lane]]] = True
-    return found
+        there[pairs.lane[ends == t[pairs.lane]]] = True
+    return there
 
 
 def _faces(part: Part, rays: Bundle) -> Iterator[tuple[Lists, Vector | None, Vector | None]]:
     """Yield the list of each face of a leaf, with an axis (None: a ball), a center (None: flat)."""
     match part.solid:
-        case HalfSpace(_, normal) as leaf:
-            yield half_space(leaf, rays), normal, None
+        case HalfSpace() as leaf:
+            yield half_space(leaf, rays), axis(leaf), None
         case Sphere(center, _) as leaf:
             yield sphere(leaf, rays), None, center
-        case Slab(p, q) as leaf:
-            yield slab(leaf, rays), _minus(q, p), None
-        case InfiniteCylinder(p, q, _) as leaf:
-            yield cylinder(leaf, rays, capped=False), _minus(q, p), p
-        case Cylinder(p, q, radius):
-            wall = InfiniteCylinder(p, q, radius)
-            yield cylinder(wall, rays, capped=False), _minus(q, p), p
-            yield slab(Slab(p, q), rays), _minus(q, p), None
+        case Slab() as leaf:
+            yield slab(leaf, rays), axis(leaf), None
+        case InfiniteCylinder() as leaf:
+            yield cylinder(leaf, rays, capped=False), axis(leaf), leaf.p
+        case Cylinder(p, q, radius) as leaf:
+            yield cylinder(InfiniteCylinder(p, q, radius), rays, capped=False), axis(leaf), p
+            yield slab(Slab(p, q), rays), axis(leaf), None
 
 
-def _normal(x: Array, axis: Vector | None, center: Vector | None) -> Array:
+def _normal(x: Array, along: Vector | None, center: Vector | None) -> Array:
     """Return a normal, of any length, at each of the points."""
     if center is None:
-        return np.broadcast_to(np.array(axis), x.shape)
+        return np.broadcast_to(np.array(along), x.shape)
     y: Array = x - np.array(center)
-    if axis is None:
+    if along is None:
         return y
-    w = np.array(axis)
+    w = np.array(along)
     across: Array = y - (y @ w / (w @ w))[:, None] * w
     return across
-
-
-def _minus(a: Vector, b: Vector) -> Vector:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def _rows(a: Vectors, lanes: int) -> Array:

@@ -43,17 +43,14 @@ class Line:
 
     @cached_property
     def vv(self) -> Array:
-        """Return v . v."""
         return dot(self.v, self.v)
 
     @cached_property
     def length(self) -> Array:
-        """Return |v|."""
         return norm(self.v)
 
     @cached_property
     def rough(self) -> Array:
-        """Return |v| nearly."""
         return rough(self.v)
 
 
@@ -66,54 +63,38 @@ class Start:
 
     @cached_property
     def length(self) -> Array:
-        """Return |y|."""
         return norm(self.y)
 
-    def taken(self, lanes: Whole) -> Start:
+    def only(self, lanes: Whole) -> Start:
         """Return the start in some lanes; a length that all share is not made again."""
-        shared = all(c is None or c.size == 1 for c in self.y)
-        return (
-            self
-            if shared and self.r.size == 1
-            else Start(take_all(self.y, lanes), take(self.r, lanes))
-        )
+        if self.r.size == 1 and all(c is None or c.size == 1 for c in self.y):
+            return self
+        return Start(take_all(self.y, lanes), take(self.r, lanes))
 
 
-@dataclass(frozen=True, slots=True)
-class How:
-    """Which shortcuts are taken: `misses` by rough numbers first, `first` no leave."""
-
-    misses: bool = True
-    first: bool = False
-
-
-def chord(start: Start, line: Line, how: How, lanes: int) -> Lists:
+def chord(start: Start, line: Line, lanes: int, misses: bool, first: bool) -> Lists:
     """Return the interval of t >= 0 for which |y + t v| <= r: the table of Problem 1 (m).
 
-    With `how.first` the leaves are NaN: only their signs are made, where the row needs them.
+    With `misses`, rough numbers say first which lanes miss. With `first` the leaves are NaN: only
+    their signs are made, where the row needs them.
     """
-    found = _near(start, line, lanes) if how.misses else np.arange(lanes)
-    v = take_all(line.v, found)
-    some = start.taken(found)
-    vv, length = take(line.vv, found), take(line.length, found)
+    near = _near(start, line, lanes) if misses else np.arange(lanes)
+    v = take_all(line.v, near)
+    some = start.only(near)
+    vv, length = take(line.vv, near), take(line.length, near)
     reach, offset = some.r * length, norm(cross(v, some.y))
-    along = np.broadcast_to(vv == 0, found.shape)
-    hit = np.broadcast_to(reach >= offset, found.shape) & ~along
-    across = np.flatnonzero(hit)
-    lane, enter, leave = _through(
-        found[across],
-        some.taken(across),
-        take_all(v, across),
-        take(vv, across),
-        (take(reach, across), take(offset, across)),
-        how.first,
-    )
-    crossing = Lists(lane, enter, leave, lanes)
-    if not along.any():
-        return crossing
-    inside = found[along & np.broadcast_to(some.length <= some.r, found.shape)]
-    whole = Lists(inside, np.zeros(inside.size), np.full(inside.size, np.inf), lanes)
-    return _woven(crossing, whole)
+    along = np.broadcast_to(vv == 0, near.shape)
+    hit = np.broadcast_to(reach >= offset, near.shape) & ~along
+    at = np.flatnonzero(hit)
+    vv, reach, offset = take(vv, at), take(reach, at), take(offset, at)
+    pairs = _through(near[at], some.only(at), take_all(v, at), vv, (reach, offset), first)
+    if along.any():
+        inside = near[along & np.broadcast_to(some.length <= some.r, near.shape)]
+        whole = inside, np.zeros(inside.size), np.full(inside.size, np.inf)
+        lane, enter, leave = (np.concatenate(both) for both in zip(pairs, whole, strict=True))
+        order = np.argsort(lane)
+        pairs = lane[order], enter[order], leave[order]
+    return Lists(*pairs, lanes)
 
 
 def _near(start: Start, line: Line, lanes: int) -> Whole:
@@ -132,7 +113,7 @@ def _through(
     c = (start.length - start.r) * (start.length + start.r)
     b = dot(v, start.y)
     t1, t2 = roots(vv, b, c, half, first)
-    t1, t2 = np.broadcast_to(t1, lane.shape), np.broadcast_to(t2, lane.shape)
+    t1, t2 = (np.broadcast_to(t, lane.shape) for t in (t1, t2))
     keep: Mask = ~(t2 < 0)
     enter = t1[keep]
     leave = np.full(enter.size, np.nan) if first else t2[keep]
@@ -156,20 +137,8 @@ def roots(a: Array, b: Array, c: Array, half: Array, first: bool = False) -> tup
     return np.where(ahead, near, enter), np.where(ahead, leave, near)
 
 
-def _woven(one: Lists, two: Lists) -> Lists:
-    """Return the pairs of two lists that share no lane, in the order of the lanes."""
-    if not two.lane.size:
-        return one
-    order = np.argsort(np.concatenate((one.lane, two.lane)))
-    lane, enter, leave = (np.concatenate((one[i], two[i]))[order] for i in range(3))
-    return Lists(lane, enter, leave, one.lanes)
-
-
-def textbook_chord(start: Start, line: Line, how: How, lanes: int) -> Lists:
-    """Return the interval of t >= 0 for which |y + t v| <= r, by the schoolbook's formula.
-
-    It takes no shortcut, whatever `how` allows.
-    """
+def textbook_chord(start: Start, line: Line, lanes: int, *_: bool) -> Lists:
+    """Return the same by the schoolbook's formula, which takes no shortcut."""
     a, b = line.vv, dot(line.v, start.y)
     c = dot(start.y, start.y) - start.r * start.r
     disc = b * b - a * c

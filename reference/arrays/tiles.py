@@ -18,7 +18,6 @@ holds all of [0, T], and the intersection is the chord itself.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import hypot, inf
 from typing import NamedTuple
 
@@ -34,9 +33,11 @@ from raycert.cases.model import (
     Slab,
     Solid,
     Sphere,
-    Union,
+    Tree,
     Vector,
     leaves,
+    points,
+    radius,
 )
 from raycert.cases.scene import Frame, pixel_ray
 from raycert.reference.arrays.vectors import Array, Mask, Vectors, Whole
@@ -93,21 +94,16 @@ def rays(frame: Frame, size: tuple[int, int], tile: Tile) -> tuple[Vectors, Vect
 
 def widened(a: Vectors, lanes: int) -> Vectors:
     """Return a shared vector lane by lane."""
-    x, y, z = (None if c is None else np.repeat(c, lanes // c.size) for c in a)
-    return x, y, z
+    return tuple(None if c is None else np.repeat(c, lanes // c.size) for c in a)
 
 
 def _shared(a: Vector) -> Vectors:
-    x, y, z = (np.array([c], float) for c in a)
-    return x, y, z
+    return tuple(np.array([c], float) for c in a)
 
 
 def _spread(base: Vector, frame: Frame, a: Array, b: Array) -> Vectors:
-    x, y, z = (
-        (c + a[None, :] * r + b[:, None] * t).ravel()
-        for c, r, t in zip(base, frame.right, frame.top, strict=True)
-    )
-    return x, y, z
+    parts = zip(base, frame.right, frame.top, strict=True)
+    return tuple((c + a[None, :] * r + b[:, None] * t).ravel() for c, r, t in parts)
 
 
 DOUBT = 2.0**-36
@@ -116,8 +112,7 @@ STRETCH = 1 + 2.0**-20
 """How far beyond the exact root a computed one may lie, at a tangent start: 2^-23 of it."""
 
 
-@dataclass(frozen=True, slots=True)
-class Box:
+class Box(NamedTuple):
     """Bounds along the coordinate axes, and the size of the largest leaf's numbers."""
 
     low: Array
@@ -125,8 +120,7 @@ class Box:
     size: float
 
 
-@dataclass(frozen=True, slots=True)
-class Cones:
+class Cones(NamedTuple):
     """For each tile: planes that all rays lie before, and the mean and spread of the rays."""
 
     normal: Array
@@ -140,37 +134,19 @@ class Cones:
 
 def box(solid: Solid) -> Box:
     """Return bounds of a solid; infinite where there is none along an axis."""
-    match solid:
-        case Union(of):
-            boxes = [box(part) for part in of]
-            low, high = (np.array([getattr(b, x) for b in boxes]) for x in ("low", "high"))
-            return Box(low.min(0), high.max(0), _size(solid))
-        case Intersection(of):
-            boxes = [box(part) for part in of]
-            low, high = (np.array([getattr(b, x) for b in boxes]) for x in ("low", "high"))
-            return Box(low.max(0), high.min(0), _size(solid))
-        case Difference(of):
-            first = box(of[0])
-            return Box(first.low, first.high, _size(solid))
-        case leaf:
-            ends = [_extent(leaf, i) for i in range(3)]
-            return Box(np.array([a for a, _ in ends]), np.array([b for _, b in ends]), _size(leaf))
-
-
-def _size(solid: Solid) -> float:
-    return max(_leaf_size(leaf) for _, leaf in leaves(solid))
+    size = max(_leaf_size(leaf) for _, leaf in leaves(solid))
+    if not isinstance(solid, Tree):
+        low, high = np.array([_extent(solid, i) for i in range(3)]).T
+        return Box(low, high, size)
+    some = solid.of[:1] if isinstance(solid, Difference) else solid.of
+    lows, highs, _ = zip(*map(box, some), strict=True)
+    if isinstance(solid, Intersection):
+        return Box(np.max(lows, 0), np.min(highs, 0), size)
+    return Box(np.min(lows, 0), np.max(highs, 0), size)
 
 
 def _leaf_size(leaf: Leaf) -> float:
-    match leaf:
-        case HalfSpace(point, _):
-            return hypot(*point)
-        case Sphere(center, radius):
-            return hypot(*center) + radius
-        case Slab(p, q):
-            return hypot(*p) + hypot(*q)
-        case InfiniteCylinder(p, q, radius) | Cylinder(p, q, radius):
-            return hypot(*p) + hypot(*q) + radius
+    return sum(hypot(*point) for point in points(leaf)) + radius(leaf)
 
 
 def _extent(leaf: Leaf, i: int) -> tuple[float, float]:
@@ -199,17 +175,14 @@ def cones(frame: Frame, size: tuple[int, int], tiles: list[Tile]) -> Cones:
     corners = [[pixel_ray(frame, size, *at) for at in tile.corners()] for tile in tiles]
     o = np.array([[ray.origin for ray in four] for four in corners])
     v = np.array([[ray.direction for ray in four] for four in corners])
-    forward = np.array(frame.forward)
-    after = [1, 2, 3, 0]
+    forward, after = np.array(frame.forward), [1, 2, 3, 0]
     if frame.kind == "perspective":
-        normal = np.cross(v, v[:, after])
-        scale = _norm(v) * _norm(v[:, after])
+        normal, scale = np.cross(v, v[:, after]), _norm(v) * _norm(v[:, after])
+        inward = v.mean(1)[:, None]
     else:
-        normal = np.cross(o[:, after] - o, forward)
-        scale = _norm(o) + _norm(o[:, after])
-    inner = v.mean(1) if frame.kind == "perspective" else o.mean(1)
-    toward = inner[:, None] - (0 if frame.kind == "perspective" else o)
-    normal = normal * np.where(np.sum(normal * toward, -1) < 0, -1.0, 1.0)[..., None]
+        normal, scale = np.cross(o[:, after] - o, forward), _norm(o) + _norm(o[:, after])
+        inward = o.mean(1)[:, None] - o
+    normal = normal * np.where(np.sum(normal * inward, -1) < 0, -1.0, 1.0)[..., None]
     ahead = np.broadcast_to(forward, (len(tiles), 1, 3))
     origin, direction = o.mean(1), v.mean(1)
     return Cones(
@@ -229,7 +202,7 @@ def _norm(a: Array) -> Array:
 
 
 def meets(cone: Cones, box: Box) -> Mask:
-    """Tell for each tile whether a ray of it may meet what is in a box."""
+    """Return for each tile whether a ray of it may meet what is in a box."""
     middle, half = (box.low + box.high) / 2, (box.high - box.low) / 2
     far = _norm(cone.origin) + cone.spread + float(_norm(middle) + _norm(half)) + box.size
     far = np.where(np.isnan(far), inf, far)[:, None]
@@ -241,7 +214,7 @@ def meets(cone: Cones, box: Box) -> Mask:
 
 
 def between_caps(cone: Cones, leaf: Cylinder) -> Mask:
-    """Tell for each tile whether its rays are in the infinite cylinder only between the caps."""
+    """Return for each tile whether its rays are in the infinite cylinder only between the caps."""
     axis, _ = displacement(leaf.p, leaf.q)
     w, p, q = np.array(axis), np.array(leaf.p), np.array(leaf.q)
     length, speed = _norm(w), _norm(cone.direction) + cone.turn
@@ -253,21 +226,16 @@ def between_caps(cone: Cones, leaf: Cylinder) -> Mask:
     high = (cone.origin - q) @ w + cone.spread * length + last * np.maximum(slope + steep, 0.0)
     sizes = _norm(cone.origin) + cone.spread + _leaf_size(leaf) + last * speed
     doubt = DOUBT * sizes * length
-    found: Mask = (low > doubt) & (high < -doubt)
-    return found
+    inside: Mask = (low > doubt) & (high < -doubt)
+    return inside
 
 
-def between_table(cone: Cones, solids: list[Solid]) -> Mask:
-    """Return a row for each tile, a column for each node: cylinders met between the caps only."""
-    columns = [
-        between_caps(cone, solid)
-        if isinstance(solid, Cylinder)
-        else np.zeros(len(cone.origin), bool)
-        for solid in solids
-    ]
-    return np.stack(columns, 1)
+def tables(cone: Cones, solids: list[Solid]) -> tuple[Mask, Mask]:
+    """Return two tables, a row for each tile, a column for each node.
 
-
-def seen_table(cone: Cones, solids: list[Solid]) -> Mask:
-    """Return a row for each tile, a column for each node: what the tile's rays may meet."""
-    return np.stack([meets(cone, box(solid)) for solid in solids], 1)
+    The first says which nodes the tile's rays may meet, the second which cylinders they meet
+    between the caps only.
+    """
+    none = np.zeros(len(cone.origin), bool)
+    between = [between_caps(cone, x) if isinstance(x, Cylinder) else none for x in solids]
+    return np.stack([meets(cone, box(solid)) for solid in solids], 1), np.stack(between, 1)

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from itertools import count
 from typing import NamedTuple, TypeVar
 
 import numpy as np
@@ -24,9 +25,10 @@ from raycert.cases.model import (
     Slab,
     Solid,
     Sphere,
-    Tree,
     Union,
     Vector,
+    parts,
+    radius,
 )
 from raycert.reference.arrays import vectors as vec
 from raycert.reference.arrays.lists import (
@@ -38,12 +40,12 @@ from raycert.reference.arrays.lists import (
     padded,
     union,
 )
-from raycert.reference.arrays.quadratic import How, Line, Start, chord
+from raycert.reference.arrays.quadratic import Line, Start, chord
 from raycert.reference.arrays.vectors import Array, Mask, Vectors, Whole, dot, take_all
 from raycert.reference.vectors import displacement, exponent, norm, scaled
 
 T = TypeVar("T")
-Chord = Callable[[Start, Line, How, int], Lists]
+Chord = Callable[[Start, Line, int, bool, bool], Lists]
 Memory = dict[object, object]
 
 
@@ -74,21 +76,11 @@ class Part:
     index: int
 
 
-def number(solid: Solid, index: int = 0) -> Part:
+def number(solid: Solid, numbers: Iterator[int] | None = None) -> Part:
     """Return the tree with its nodes numbered, the root first."""
-    parts = []
-    last = index
-    for child in solid.of if isinstance(solid, Tree) else ():
-        parts.append(number(child, last + 1))
-        last = greatest(parts[-1])
-    return Part(solid, tuple(parts), index)
-
-
-def greatest(part: Part) -> int:
-    """Return the greatest index in a tree."""
-    while part.parts:
-        part = part.parts[-1]
-    return part.index
+    numbers = numbers or count()
+    index = next(numbers)
+    return Part(solid, tuple(number(part, numbers) for part in parts(solid)), index)
 
 
 def walk(part: Part) -> Iterator[Part]:
@@ -102,8 +94,8 @@ def walk(part: Part) -> Iterator[Part]:
 class Bundle:
     """Rays: origin and direction, each for all lanes at once or lane by lane.
 
-    `kept` outlives the bundle: it is for what depends on a vector that all rays of the scene
-    share. `here` is for what parts of this bundle share, `lists` has what was found of each.
+    `memory` outlives the bundle: it is for what depends on a vector that all rays of the scene
+    share. `here` is for what parts of this bundle share, `lists` has the list of each.
     `seen` tells which parts the rays may meet, `between` which cylinders only between the caps.
     """
 
@@ -111,7 +103,7 @@ class Bundle:
     direction: Vectors
     lanes: int
     switches: Switches = PLAIN
-    kept: Memory = field(default_factory=dict)
+    memory: Memory = field(default_factory=dict)
     one_origin: bool = False
     one_direction: bool = False
     seen: Mask | None = None
@@ -121,10 +113,8 @@ class Bundle:
 
     def only(self, lanes: Whole) -> Bundle:
         """Return some of the rays."""
-        origin, direction = take_all(self.origin, lanes), take_all(self.direction, lanes)
-        return replace(
-            self, origin=origin, direction=direction, lanes=lanes.size, here={}, lists={}
-        )
+        u, v = take_all(self.origin, lanes), take_all(self.direction, lanes)
+        return replace(self, origin=u, direction=v, lanes=lanes.size, here={}, lists={})
 
     def of_origin(self, key: object, make: Callable[[], T]) -> T:
         """Return what depends on the origins alone: made once where they are all the same."""
@@ -137,13 +127,13 @@ class Bundle:
     def _remembered(self, one: bool, key: object, make: Callable[[], T]) -> T:
         if not (one or self.switches.shared):
             return make()
-        memory = self.kept if one else self.here
+        memory = self.memory if one else self.here
         if key not in memory:
             memory[key] = make()
         return memory[key]  # type: ignore[return-value]
 
     def sees(self, part: Part) -> bool:
-        """Tell whether the rays may meet a part."""
+        """Whether the rays may meet a part."""
         return self.seen is None or bool(self.seen[part.index])
 
 
@@ -181,8 +171,8 @@ def _from(point: Vector, rays: Bundle) -> tuple[Vectors, Whole]:
     return vec.displacement(point, rays.origin, rays.switches.axis)
 
 
-def _length(radius: float, e: Whole) -> Array:
-    length: Array = np.ldexp(np.array([radius]), -e)
+def _length(x: float, e: Whole) -> Array:
+    length: Array = np.ldexp(np.array([x]), -e)
     return length
 
 
@@ -201,16 +191,12 @@ def meeting(solid: InfiniteCylinder | Slab | Cylinder, w: Vector, rays: Bundle) 
     """Return the start relative to an axis."""
 
     def make() -> Meeting:
-        radius = 0.0 if isinstance(solid, Slab) else solid.radius
-        y, ye = _from(solid.p, rays)
-        z, ze = _from(solid.q, rays)
+        (y, ye), (z, ze), e = _from(solid.p, rays), _from(solid.q, rays), UNSCALED
         if rays.switches.scaling:
-            e = np.maximum(np.maximum(ye, ze), exponent(radius))
+            e = np.maximum(np.maximum(ye, ze), exponent(radius(solid)))
             y, z = vec.shift(y, ye - e), vec.shift(z, ze - e)
-        else:
-            e = UNSCALED
         across = vec.cross(y, vec.constant(w, rays.switches.axis))
-        return Meeting(y, z, e, Start(across, _length(radius, e) * norm(w)))
+        return Meeting(y, z, e, Start(across, _length(radius(solid), e) * norm(w)))
 
     return rays.of_origin(solid, make)
 
@@ -223,13 +209,12 @@ def cylinder(
     there, way = meeting(solid, w, rays), course(w, rays)
     endless = isinstance(solid, InfiniteCylinder)
     compare = capped or (endless and rays.switches.caps)
-    how = How(rays.switches.misses, first and not compare)
-    pairs = rays.switches.chord(there.start, way.line, how, rays.lanes)
+    misses = rays.switches.misses
+    pairs = rays.switches.chord(there.start, way.line, rays.lanes, misses, first and not compare)
     if compare:
         enter, leave, keep = _planes(pairs.lane, there, way.v, w, rays, endless)
-        pairs = Lists(
-            pairs.lane, np.maximum(pairs.enter, enter), np.minimum(pairs.leave, leave), pairs.lanes
-        ).where(keep & (np.maximum(pairs.enter, enter) <= np.minimum(pairs.leave, leave)))
+        enter, leave = np.maximum(pairs.enter, enter), np.minimum(pairs.leave, leave)
+        pairs = Lists(pairs.lane, enter, leave, pairs.lanes).where(keep & (enter <= leave))
     return unscale(pairs, there.e - way.e, rays.switches.scaling)
 
 
@@ -240,9 +225,8 @@ def slab(solid: Slab, rays: Bundle) -> Lists:
     v, e = _direction(rays)
     lanes = np.arange(rays.lanes)
     enter, leave, keep = _planes(lanes, there, v, w, rays)
-    return unscale(
-        Lists(lanes, enter, leave, rays.lanes).where(keep), there.e - e, rays.switches.scaling
-    )
+    pairs = Lists(lanes, enter, leave, rays.lanes).where(keep)
+    return unscale(pairs, there.e - e, rays.switches.scaling)
 
 
 def _planes(
@@ -250,7 +234,7 @@ def _planes(
 ) -> tuple[Array, Array, Mask]:
     """Return the row of Problem 2 in some lanes: enter, leave, and whether there is a pair.
 
-    `endless`: the planes are nowhere, and nothing that was found is used.
+    `endless`: the planes are nowhere, and no number is used.
     """
     n = vec.constant(w, rays.switches.axis)
     up, uq = -dot(take_all(there.y, lanes), n), -dot(take_all(there.z, lanes), n)
@@ -279,24 +263,23 @@ def half_space(solid: HalfSpace, rays: Bundle) -> Lists:
     keep = np.broadcast_to(~along | (up <= 0), rays.lanes)
     out = ~along & (vn > 0)
     lanes = np.arange(rays.lanes)
-    enter = _wide(np.where(along | out, 0.0, t), lanes)
-    leave = _wide(np.where(out, t, np.inf), lanes)
-    return Lists(lanes, enter, leave, rays.lanes).where(keep)
+    enter, leave = np.where(along | out, 0.0, t), np.where(out, t, np.inf)
+    return Lists(lanes, _wide(enter, lanes), _wide(leave, lanes), rays.lanes).where(keep)
 
 
 def sphere(solid: Sphere, rays: Bundle, first: bool = False) -> Lists:
     """Return where the distance from the center is at most the radius."""
 
     def make() -> tuple[Start, Whole]:
-        y, ye = _from(solid.center, rays)
-        if not rays.switches.scaling:
-            return Start(y, _length(solid.radius, UNSCALED)), UNSCALED
-        e = np.maximum(ye, exponent(solid.radius))
-        return Start(vec.shift(y, ye - e), _length(solid.radius, e)), e
+        (y, ye), e = _from(solid.center, rays), UNSCALED
+        if rays.switches.scaling:
+            e = np.maximum(ye, exponent(solid.radius))
+            y = vec.shift(y, ye - e)
+        return Start(y, _length(solid.radius, e)), e
 
     start, e = rays.of_origin(solid, make)
     way = course(None, rays)
-    pairs = rays.switches.chord(start, way.line, How(rays.switches.misses, first), rays.lanes)
+    pairs = rays.switches.chord(start, way.line, rays.lanes, rays.switches.misses, first)
     return unscale(pairs, e - way.e, rays.switches.scaling)
 
 
@@ -316,13 +299,13 @@ def _wide(a: Array, lanes: Whole) -> Array:
 def solve(part: Part, rays: Bundle, first: bool = False) -> Lists:
     """Return the intervals of t >= 0 for which each ray is in a solid.
 
-    With `first`, the leaves of a primitive need not be there. The bundle remembers what is found.
+    With `first`, the leaves of a primitive need not be there. The bundle remembers the lists.
     """
     if not rays.sees(part):
         return nothing(rays.lanes)
-    found = _tree(part, rays) if part.parts else _leaf(part, rays, first)
-    rays.lists[part.index] = found
-    return found
+    lists = _tree(part, rays) if part.parts else _leaf(part, rays, first)
+    rays.lists[part.index] = lists
+    return lists
 
 
 def _leaf(part: Part, rays: Bundle, first: bool) -> Lists:
@@ -347,12 +330,11 @@ def _tree(part: Part, rays: Bundle) -> Lists:
     keep = isinstance(part.solid, Intersection)
     lists: list[Lists] = []
     for i, child in enumerate(part.parts):
-        found = solve(child, rays)
-        if short and not found.lane.size:
-            if keep or (i == 0 and isinstance(part.solid, Difference)):
-                return found
-            continue
-        lists.append(found)
+        one = solve(child, rays)
+        if one.lane.size or not short:
+            lists.append(one)
+        elif keep or (i == 0 and isinstance(part.solid, Difference)):
+            return one
     if not lists:
         return nothing(rays.lanes)
     if short and len(lists) == 1:
@@ -389,7 +371,7 @@ def _blocks(solid: Solid, origins: Array, directions: Array, switches: Switches)
     part = number(solid)
     for i in range(0, len(origins), BLOCK):
         u, v = (np.ascontiguousarray(a[i : i + BLOCK].T, float) for a in (origins, directions))
-        bundle = Bundle((u[0], u[1], u[2]), (v[0], v[1], v[2]), u.shape[1], switches)
+        bundle = Bundle(tuple(u), tuple(v), u.shape[1], switches)
         with np.errstate(all="ignore"):
             yield solve(part, bundle)
 
@@ -397,9 +379,8 @@ def _blocks(solid: Solid, origins: Array, directions: Array, switches: Switches)
 def joined(blocks: list[Lists]) -> Lists:
     """Return the lists of blocks of lanes, one block after the other."""
     if not blocks:
-        return Lists(np.empty(0, np.int64), np.empty(0), np.empty(0), 0)
+        return nothing(0)
     starts = np.cumsum([0, *(block.lanes for block in blocks)])
     lane = np.concatenate([b.lane + s for b, s in zip(blocks, starts, strict=False)])
-    enter = np.concatenate([block.enter for block in blocks])
-    leave = np.concatenate([block.leave for block in blocks])
+    enter, leave = (np.concatenate([block[i] for block in blocks]) for i in (1, 2))
     return Lists(lane, enter, leave, int(starts[-1]))

@@ -27,15 +27,15 @@ Array = npt.NDArray[np.float64]
 Whole = npt.NDArray[np.int64]
 Mask = npt.NDArray[np.bool_]
 Component = Array | None
-Vectors = tuple[Component, Component, Component]
+Vectors = tuple[Component, ...]
+"""Three of them."""
 
 ZERO = np.zeros(1)
 
 
 def constant(a: Vector, drop: bool) -> Vectors:
     """Return a vector that all lanes share; `drop` makes its zeros None."""
-    x, y, z = (None if drop and c == 0 else np.array([c]) for c in a)
-    return x, y, z
+    return tuple(None if drop and c == 0 else np.array([c]) for c in a)
 
 
 def present(a: Vectors) -> list[Array]:
@@ -50,8 +50,7 @@ def take(a: Array, lanes: Whole) -> Array:
 
 def take_all(a: Vectors, lanes: Whole) -> Vectors:
     """Return the lanes of a vector."""
-    x, y, z = (None if c is None else take(c, lanes) for c in a)
-    return x, y, z
+    return tuple(None if c is None else take(c, lanes) for c in a)
 
 
 def dot(a: Vectors, b: Vectors) -> Array:
@@ -87,8 +86,7 @@ def exponent(size: Array) -> Whole:
 
 def shift(a: Vectors, e: Whole) -> Vectors:
     """Return a 2^e."""
-    x, y, z = (None if c is None else np.ldexp(c, e) for c in a)
-    return x, y, z
+    return tuple(None if c is None else np.ldexp(c, e) for c in a)
 
 
 def scaled(a: Vectors) -> tuple[Vectors, Whole]:
@@ -100,8 +98,7 @@ def scaled(a: Vectors) -> tuple[Vectors, Whole]:
 def difference(start: Vector, end: Vectors, drop: bool) -> Vectors:
     """Return end - start; with `drop`, None for what is zero in a lane that all share."""
     parts = [_values(e) - s for s, e in zip(start, end, strict=True)]
-    x, y, z = (None if drop and c.size == 1 and not c.any() else c for c in parts)
-    return x, y, z
+    return tuple(None if drop and c.size == 1 and not c.any() else c for c in parts)
 
 
 def displacement(start: Vector, end: Vectors, drop: bool) -> tuple[Vectors, Whole]:
