@@ -11,13 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from raycert.oracle.commands.options import (
-    BadInput,
-    find,
-    golden_option,
-    precision_option,
-    read,
-)
+from raycert.oracle.commands.options import BadInput, find, golden_option, precision_option, read
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -70,7 +64,6 @@ def case_options(function: Decorated) -> Decorated:
 
 
 def count_given(options: dict[str, Any]) -> int:
-    """Return in how many ways a case is named."""
     words = options["ray"] or any(options[name] for name in SHAPES)
     return bool(options["id"]) + bool(options["file"]) + bool(words)
 
@@ -148,7 +141,6 @@ def _from_words(options: dict[str, Any], fmt: Format, rounded: list[Fact]) -> Pr
 
 
 def _vector(word: str, path: str, fmt: Format, rounded: list[Fact]) -> list[float]:
-    """Return the vector that a word spells."""
     from raycert.cases.model import Refused
 
     parts = word.split(",")

@@ -93,7 +93,6 @@ def explain(form: str, symbolic: bool, full: bool, **options: Any) -> None:
 
 
 def _derivation(options: dict[str, Any]) -> Derivation:
-    """Return the derivation of the case that the words name."""
     from dataclasses import replace
 
     from raycert.cases.formats import FORMATS
@@ -134,7 +133,6 @@ def _proofs() -> list[Statement]:
 
 
 def _write(file: str, derivation: Derivation, options: dict[str, Any]) -> None:
-    """Ask the implementations, and write the page."""
     import shlex
 
     from raycert.oracle.commands.options import aim
@@ -170,7 +168,6 @@ def _repeat(derivation: Derivation, options: dict[str, Any]) -> str:
 
 
 def _print(derivation: Derivation | None, statements: list[Statement] | None, full: bool) -> None:
-    """Print the proofs, then the case."""
     from rich.console import Console
 
     from raycert.oracle.explain.console import show, show_proofs

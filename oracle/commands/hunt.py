@@ -94,7 +94,6 @@ def hunt(target: tuple[str, ...], **options: Any) -> None:
 
 
 def _check(options: dict[str, Any]) -> None:
-    """Refuse what cannot be done, before the work."""
     from raycert.cases.corpus import MANIFEST, BadCorpus, read_manifest
 
     if options["cases"] and options["seconds"]:
@@ -136,7 +135,6 @@ def _job(target: Target, options: dict[str, Any]) -> Job:
 
 
 def _hunt(job: Job, options: dict[str, Any]) -> Hunt:
-    """Run the hunt where its units are to be done."""
     from functools import partial
 
     from raycert.oracle.client.dialogue import Unusable
@@ -180,14 +178,12 @@ def _watched(budget: Any) -> Iterator[Callable[[Hunt], None]]:
 
 
 def status(found: Hunt) -> str:
-    """Return how a hunt stands, in a line."""
     causes = len(found.findings)
     plural = "" if causes == 1 else "s"
     return f"{found.tried} cases, {causes} cause{plural} of failure, worst k {worst(found)}"
 
 
 def worst(found: Hunt) -> str:
-    """Return the worst k, for people."""
     return f"{found.worst.k:g}" if found.worst.probe else "<= 1"
 
 

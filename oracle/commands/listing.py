@@ -11,13 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from raycert.cases.levels import LEVELS, TIERS
-from raycert.oracle.commands.options import (
-    find,
-    golden_option,
-    precision_option,
-    read,
-    unknown,
-)
+from raycert.oracle.commands.options import find, golden_option, precision_option, read, unknown
 
 if TYPE_CHECKING:
     from raycert.cases.corpus import Corpus
@@ -84,7 +78,6 @@ def list_cases(precision: str, golden: Path | None, **options: Any) -> None:
 
 
 def values(row: GoldenRow, field: str) -> tuple[str, ...]:
-    """Return what a row has in a field; row names without the path in a tree."""
     from raycert.cases.model import type_of
 
     match field:
@@ -144,7 +137,6 @@ def select(corpus: Corpus, **options: Any) -> list[GoldenRow]:
 
 
 def _screen() -> int | None:
-    """Return the width of the terminal that is written to; None for a file or a pipe."""
     from shutil import get_terminal_size
 
     return get_terminal_size().columns if sys.stdout.isatty() else None

@@ -79,8 +79,7 @@ Exit status: 0 done; 2 bad usage or input; 3 the target could not be run.
 )
 @click.option("--show", type=click.Choice(SHOWS), help="[exact, or k with --target]")
 @click.option(
-    "--target",
-    help="reference (default), oracle, module:function, ./tracer.so, or a command line.",
+    "--target", help="reference (default), oracle, module:function, ./tracer.so, or a command line."
 )
 @click.option(
     "--out",

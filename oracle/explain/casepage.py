@@ -66,7 +66,6 @@ def ask(word: str, target: Sequence[str] | Target, row: GoldenRow, precision: st
 
 
 def _unasked(row: GoldenRow, hello: Hello, precision: str) -> str:
-    """Return why an implementation is not asked a case; empty where it is."""
     if hello.precision != precision:
         return f"not asked: it computes in {hello.precision}; see: --precision {hello.precision}"
     missing = sorted(types(row.solid) - set(hello.solids))
@@ -103,7 +102,6 @@ def case_page(derivation: Derivation, answers: Sequence[Response], repeat: str) 
 
 
 def _drawn(one: Response, name: str) -> AnswerLine:
-    """Return an answer as it is drawn; a first hit is a list of one point."""
     graded = one.grade
     if graded is None or graded.said is None:
         return AnswerLine(name, None, "no answer")
@@ -162,7 +160,6 @@ def _names(words: Sequence[str]) -> list[str]:
 
 
 def _tail(word: str) -> str:
-    """Return the end of the word that names an implementation: `trace` of `my.code:trace`."""
     return re.split(r"[:/]", word.strip().rstrip("/"))[-1]
 
 

@@ -69,7 +69,6 @@ class AnswerLine:
 
     @property
     def lane(self) -> Lane:
-        """Return its line."""
         silence = "" if self.pairs else clean(self.silence, 44)
         return Lane(clean(self.name, NAME), ((self.pairs or (), "said"),), silence)
 
@@ -86,7 +85,6 @@ def _number(x: float) -> Fraction | float:
 
 
 def lists(row: GoldenRow, accept: Accept) -> CaseLists:
-    """Return the exact list of a row, and what is accepted."""
     exact = tuple((_end(span.enter), _end(span.leave)) for span in row.intervals)
     return CaseLists(exact, numbers(accept.inner) or (), numbers(accept.outer) or (), None)
 
@@ -138,7 +136,6 @@ def _scale(axis: Ruler, foot: float) -> tuple[list[Element], str]:
 
 
 def _inside(scene: Slice, axis: Ruler, exact: Pairs) -> Iterator[Element]:
-    """Yield the parts of the ray that are in the solid, a touch as a dot."""
     y = ray_height(scene)
     for enter, leave in exact:
         a, b = (max(GUTTER, min(axis.x(t), WIDTH)) for t in (enter, leave))

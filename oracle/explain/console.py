@@ -37,7 +37,6 @@ def show(derivation: Derivation, console: Console, full: bool) -> None:
 
 
 def show_rows(rows: Sequence[GoldenRow], fmt: Format, console: Console, full: bool) -> None:
-    """Print golden rows: what the files hold, with nothing computed anew."""
     for i, row in enumerate(rows):
         if i:
             _put(console, (Text(), Text()))
@@ -50,7 +49,6 @@ def show_proofs(statements: Sequence[Statement], console: Console) -> None:
 
 
 def _put(console: Console, lines: Iterable[Text]) -> None:
-    """Print lines as they are."""
     for line in lines:
         line.rstrip()
         console.print(line, soft_wrap=True, highlight=False)
@@ -67,7 +65,6 @@ def _case(
 
 
 def case_lines(row: GoldenRow, fmt: Format, width: int) -> Iterator[Text]:
-    """Yield what is asked: the case by name if it has one, its solid and its ray."""
     if row.why:
         flags = f", {' '.join(row.flags)}" if row.flags else ""
         yield Text(row.id, "bold")
@@ -153,7 +150,6 @@ def layout(name: str, fields: list[Field], width: int, margin: int) -> Text:
 
 
 def table_lines(table: Table, width: int) -> Iterator[Text]:
-    """Yield a case table: each condition with yes or no, the row taken marked."""
     head = ["  row", *table.quantities, "emits"]
     here = ["  here", *(sign.rjust(4) for sign in table.signs), ""]
     body = [
@@ -181,7 +177,6 @@ def _cell(cell: Demand | None) -> str:
 
 
 def proof_lines(statements: Sequence[Statement], width: int) -> Iterator[Text]:
-    """Yield the lines of a list of proofs."""
     from raycert.oracle.witness.proofs import LEGEND  # needs SymPy
 
     yield Text("Symbols", "bold")

@@ -58,7 +58,6 @@ class Derivation:
 
 
 def derive(case: Case, fmt: Format, family: str = "given") -> Derivation:
-    """Return the derivation of a case."""
     row = golden_row(Family(family, "", lambda _: ()), case, fmt)
     judge = Judge(case.solid, case.ray, fmt, case.tier)
     answers = (*_answers(row, judge), judgement(row, judge))
@@ -71,7 +70,6 @@ def given(solid: Solid, ray: Ray) -> Case:
 
 
 def as_given(row: GoldenRow) -> Case:
-    """Return the case of a golden row, without its answer."""
     slug = row.id.partition("/")[2]
     return Case(slug, row.why, row.solid, row.ray, row.tier, row.flags, row.source)
 
@@ -83,7 +81,6 @@ def to_json(derivation: Derivation) -> dict[str, Any]:
 
 
 def solid_steps(solid: Solid, ray: Ray) -> Iterator[Passage]:
-    """Yield the passages of a solid up to its exact list."""
     if not isinstance(solid, Tree):
         yield from leaf_steps(solid, ray)
         return

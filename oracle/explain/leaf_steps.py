@@ -45,12 +45,10 @@ BOTH = {"pairs_1": "pairs of 1", "pairs_2": "pairs of 2", "m-n": "m - n"}
 
 
 def exact(x: Vector) -> Exact:
-    """Return a vector in fractions."""
     return (Fraction(x[0]), Fraction(x[1]), Fraction(x[2]))
 
 
 def leaf_steps(leaf: Leaf, ray: Ray) -> Iterator[Passage]:
-    """Yield the steps of one leaf: its vectors, then the problems that it takes."""
     grid, decisions = Grid.of(leaf, ray), list[Decision]()
     solve_leaf(leaf, grid, "", decisions)
     match leaf:
@@ -72,7 +70,6 @@ def leaf_steps(leaf: Leaf, ray: Ray) -> Iterator[Passage]:
 
 
 def _axis(leaf: Slab | InfiniteCylinder | Cylinder, ray: Ray) -> Passage:
-    """Return the vectors of an axis; a slab needs only w."""
     p, u, v = exact(leaf.p), exact(ray.origin), exact(ray.direction)
     w = minus(exact(leaf.q), p)
     square = scalar("|w|^2", dot(w, w), sign=False)

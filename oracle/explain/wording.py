@@ -88,7 +88,6 @@ def as_json(passage: Passage) -> dict[str, Any]:
 def row_table(
     rows: tuple[Row, ...], names: Mapping[str, str], signs: Mapping[str, int], taken: Row
 ) -> Table:
-    """Return a case table; `signs` lacks the quantities that are undefined here."""
     quantities = list(dict.fromkeys(q for row in rows for q, _ in row.condition))
     entries = []
     for row in rows:
@@ -107,7 +106,6 @@ def _cell(quantity: str, relation: str, signs: Mapping[str, int]) -> Demand:
 
 
 def scalar(name: str, value: Fraction, note: str = "", sign: bool = True) -> Fact:
-    """Return the fact of a dyadic number."""
     text = dyadic(value)
     relation = RELATION[(value > 0) - (value < 0)] if sign else ""
     digits = about(value) if len(text) > SHORT or "*" in text else ""
@@ -209,7 +207,6 @@ def endpoint(value: Surd) -> str:
 
 
 def listed(intervals: Intervals) -> str:
-    """Return an exact list in 12 digits: `[2, 4] [5, inf]`, or `{}`."""
     return " ".join(f"[{brief(a)}, {brief(b)}]" for a, b in intervals) or "{}"
 
 
@@ -257,7 +254,6 @@ def enclosing(down: float, up: float, nearest: float, fmt: Format) -> Iterator[F
 
 
 def accepting(level: str, accept: Accept, fmt: Format) -> Iterator[Fact]:
-    """Yield the two lists between which an answer is accepted."""
     yield Fact(f"{level} inner", numbers(accept.inner, fmt), note="each lies in a pair")
     most = ", ".join(map(str, accept.most))
     pairs = f"at most {most} {'pair' if most == '1' else 'pairs'}" if most else "no pair"

@@ -60,20 +60,16 @@ class Here:
     places = 1
 
     def __init__(self, work: Work) -> None:
-        """Take the work that does a unit."""
         self._work = work
         self._waiting: deque[Unit] = deque()
 
     def submit(self, unit: Unit) -> None:
-        """Let a unit wait."""
         self._waiting.append(unit)
 
     def finished(self, seconds: float) -> list[Haul]:
-        """Do the next unit, however long that takes."""
         return [self._work(self._waiting.popleft())] if self._waiting else []
 
     def close(self) -> None:
-        """Drop what waits."""
         self._waiting.clear()
 
 
@@ -92,14 +88,12 @@ class Processes:
         return ProcessPoolExecutor(self.places, get_context("spawn"), _leave_interrupts)
 
     def submit(self, unit: Unit) -> None:
-        """Give a unit to the pool."""
         try:
             self._units[self._pool.submit(self._work, unit)] = unit
         except BrokenProcessPool:
             self._again([unit])
 
     def finished(self, seconds: float) -> list[Haul]:
-        """Return what has come; units of a broken pool are begun again."""
         done, _ = wait(self._units, seconds, FIRST_COMPLETED)
         results, lost = [], []
         for future in done:
@@ -124,14 +118,12 @@ class Processes:
             self.submit(unit)
 
     def close(self) -> None:
-        """Stop the processes, at once."""
         for process in list((self._pool._processes or {}).values()):
             process.terminate()
         self._pool.shutdown(wait=True, cancel_futures=True)
 
 
 def _leave_interrupts() -> None:
-    """Leave Ctrl-C to the process that waits for the results."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
@@ -159,7 +151,6 @@ class Cluster:
         return max(len(self._client.scheduler_info(n_workers=-1)["workers"]), 1)
 
     def submit(self, unit: Unit, attempt: int = 1) -> None:
-        """Give a unit to the cluster."""
         key = f"raycert-hunt-{self._name}-{unit.number}-{attempt}"
         future = self._client.submit(self._work, unit, key=key, pure=False)
         self._tasks[unit.number] = future, unit, attempt

@@ -30,7 +30,6 @@ Json = dict[str, Any]
 
 
 def family(seed: int) -> str:
-    """Return the name of the family that the findings of a seed are."""
     return f"hunt-{seed}" if seed >= 0 else f"hunt-minus-{-seed}"
 
 
@@ -72,7 +71,6 @@ def _row(id: str, why: str, probe: Probe, looker: Looker) -> GoldenRow:
 
 
 def write(folder: Path, seed: int, rows: Sequence[GoldenRow], fmt: Format, report: Json) -> None:
-    """Write the rows of a hunt, the manifest of the whole directory, and the report."""
     own = f"{fmt.name}/{family(seed)}.jsonl"
     there = read_manifest(folder)["files"] if (folder / MANIFEST).exists() else ()
     others = (name for name in there if name != own and (folder / name).is_file())
@@ -117,12 +115,10 @@ def _finding(finding: Finding) -> Json:
 
 
 def case(probe: Probe) -> Json:
-    """Return a probe as in a line of the protocol, without an id."""
     return {"solid": write_solid(probe.solid), "ray": write_ray(probe.ray)}
 
 
 def answer(outcome: Outcome) -> Any:
-    """Return what was answered, as JSON."""
     if silent := silence(outcome):
         return dict([silent])
     assert isinstance(outcome, Reply)

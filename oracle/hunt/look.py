@@ -108,12 +108,10 @@ class Looker:
         return self.criterion.far or is_usual(probe, self.hello.format)
 
     def judge(self, probe: Probe) -> Judge:
-        """Return the judge of a probe."""
         fmt, tolerance = self.hello.format, self.hello.tolerance
         return Judge(probe.solid, probe.ray, fmt, self.tier(probe), tolerance)
 
     def __call__(self, probe: Probe, outcome: Outcome) -> Observation:
-        """Return what comes of a look at an answer."""
         if silent := silence(outcome):
             return Observation(Flaw("sound", *silent), inf)
         assert isinstance(outcome, Reply)
@@ -141,7 +139,6 @@ class Looker:
         return Observation(flaw, k, said.forward_error(judge))
 
     def _unkept(self, said: Claim, judge: Judge) -> Flaw | None:
-        """Return the flaw of a touch kept or dropped against the convention asked for."""
         wanted = self.criterion.convention
         if judge.tier != "lattice" or wanted is None or isinstance(judge.solid, Tree):
             return None
@@ -187,7 +184,6 @@ class Looker:
 
 
 def row(probe: Probe, looker: Looker) -> GoldenRow:
-    """Return the golden row of a probe, without witnesses."""
     case = Case("case", "A case of a hunt.", probe.solid, probe.ray, looker.tier(probe))
     return golden_row(Family("hunt", "", lambda _: ()), case, looker.hello.format)
 
@@ -224,7 +220,6 @@ def coarse_k(said: Claim, judge: Judge) -> float:
 
 
 def how(said: Claim, accept: Accept) -> str:
-    """Return the kind of a gross flaw."""
     if isinstance(said, Listed):
         return kind(accept.outer, accept.inner, said.pairs)
     if isinstance(said, First):
@@ -250,7 +245,6 @@ class Symptom:
 
 
 def symptom(probe: Probe, flaw: Flaw) -> Symptom:
-    """Return the symptom of a failure."""
     first = re.sub(r"[^A-Za-z ]+", " ", flaw.reason).split()[:4] if flaw.kind in SILENT else []
     words = " ".join(first)
     if flaw.kind == UNREPEATED:

@@ -65,7 +65,6 @@ def of_format(probes: Iterable[Probe | None], fmt: Format) -> list[Probe]:
 
 
 def axis_of(leaf: Leaf) -> Vector:
-    """Return a direction that matters to a leaf."""
     w = axis(leaf)
     return w if w and any(w) else (0.0, 0.0, 1.0)
 
@@ -94,7 +93,6 @@ def changed(
 
 
 def shifted(probe: Probe, step: Vector) -> Probe | None:
-    """Return the probe moved by a step."""
     return changed(probe, lambda x: plus(x, step))
 
 
@@ -104,17 +102,14 @@ def scaled(probe: Probe, factor: float) -> Probe | None:
 
 
 def hastened(probe: Probe, factor: float) -> Probe | None:
-    """Return the probe with the direction times a factor."""
     return changed(probe, direction=lambda v: times(factor, v))
 
 
 def turned(probe: Probe, turn: Callable[[Vector], Vector]) -> Probe | None:
-    """Return the probe with each of its vectors turned."""
     return changed(probe, turn, normal=turn, direction=turn)
 
 
 def pick(dice: Dice, items: Sequence[T]) -> T:
-    """Return one of the items."""
     return items[dice.integer(0, len(items) - 1)]
 
 

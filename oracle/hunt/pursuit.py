@@ -65,7 +65,6 @@ def work(job: Job, unit: Unit) -> Haul:
 
 
 def directed(site: Site) -> None:
-    """Search until the cases or the time are used up."""
     search = _Search(site)
     while True:
         search.round()
@@ -83,7 +82,6 @@ class _Search:
         self.split: set[tuple[str, str, str]] = set()
 
     def round(self) -> None:
-        """Ask fresh probes, then what they and the best are moved to."""
         fresh = self._able([next(self.sources) for _ in range(NEW)])
         if self.site.job.criterion.convention:
             fresh += self._able([on_lattice(self.dice) for _ in range(NEW)])
@@ -103,7 +101,6 @@ class _Search:
         self._halve(dict(seen), moves)
 
     def _able(self, probes: list[Probe]) -> list[Probe]:
-        """Return the probes that may be asked about."""
         return [probe for probe in probes if self.site.looker.wants(probe)]
 
     def _rank(self, seen: list[tuple[Probe, Observation]]) -> None:
@@ -137,7 +134,6 @@ class _Search:
 
 
 def _apart(one: Probe, other: Probe, fmt: Format) -> int:
-    """Return the largest distance of two numbers, in steps of the format."""
     pairs = zip(numbers(one), numbers(other), strict=True)
     return max(abs(ordinal(a, fmt) - ordinal(b, fmt)) for a, b in pairs)
 
@@ -255,7 +251,6 @@ class Patience:
     """Ends a search PATIENCE cases after the last new cause: ours is the faster shrinker."""
 
     def __init__(self) -> None:
-        """Begin without a cause."""
         self._known: set[tuple[str, str, str]] = set()
         self._left = 0
 

@@ -112,7 +112,6 @@ class _Course:
         self.found = self._catch.found
 
     def run(self) -> None:
-        """Go on until the budget is used up."""
         units = self._units()
         waiting = next(units, None)
         while waiting or self._out:
@@ -158,7 +157,6 @@ class _Course:
         self._on_progress(self.found)
 
     def close(self) -> None:
-        """Leave no process behind."""
         self._tell()
         self._catch.session.close()
 
@@ -208,8 +206,6 @@ class Catch:
         return self._unrepeated(suspect, outcome)
 
     def _shrunk(self, suspect: Suspect, flaw: Flaw, before: tuple[Probe, ...]) -> Finding | None:
-        """Return the finding of a failure that was confirmed; None if its cause is known."""
-
         def fails(probes: Sequence[Probe]) -> list[bool]:
             if time.monotonic() > self._clock.end + LINGER:
                 raise TimeUp
@@ -232,7 +228,6 @@ class Catch:
         return self._finished(shrinker.best, suspect, before)
 
     def _finished(self, best: Probe, suspect: Suspect, before: tuple[Probe, ...]) -> Finding:
-        """Return the finding, its simplest case asked once more of a new process."""
         for probe in (best, suspect.probe):
             outcome, again = self._afresh(probe, before)
             if again:

@@ -50,7 +50,6 @@ class Clock:
         return max(self.end - time.monotonic(), 0.1)
 
     def check(self) -> None:
-        """Raise `TimeUp` when it is."""
         if time.monotonic() > self.end:
             raise TimeUp
 
@@ -59,14 +58,12 @@ class Session:
     """A target, open until `close`. It is opened at the first question, and `hello` asks none."""
 
     def __init__(self, target: Target, limits: Limits, clock: Clock | None = None) -> None:
-        """Take a target; nothing is started yet."""
         self._target, self._limits, self.clock = target, limits, clock or Clock()
         self._ids = fresh_ids()
         self._dialogue: Dialogue | None = None
 
     @property
     def hello(self) -> Hello:
-        """Return what the target declares. Raises `Unusable`."""
         return self._live().hello
 
     def ask(self, probes: Sequence[Probe]) -> list[Outcome]:
@@ -84,7 +81,6 @@ class Session:
         return self.ask(probes)
 
     def close(self) -> None:
-        """Leave no process behind."""
         dialogue, self._dialogue = self._dialogue, None
         if dialogue is not None:
             dialogue.kill()

@@ -53,13 +53,7 @@ MOST = 6000
 AT_ONCE = 24
 """Cases that are asked together: the simplest first, and often one of the first fails."""
 Cost = tuple[int, int, int, int]
-FACES: dict[type[Solid], int] = {
-    HalfSpace: 0,
-    Sphere: 1,
-    Slab: 1,
-    InfiniteCylinder: 2,
-    Cylinder: 3,
-}
+FACES: dict[type[Solid], int] = {HalfSpace: 0, Sphere: 1, Slab: 1, InfiniteCylinder: 2, Cylinder: 3}
 BITS = (1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 40)
 GRIDS = (0, -1, -2, -4, -8, -16, -24, -32, -40)
 ANCHORS = ("p", "q", "center", "point")
@@ -77,7 +71,6 @@ class Shrinker:
         self._drawn: set[tuple[type, ...]] = set()
 
     def run(self, is_known: Callable[[Probe], bool] = lambda _: False) -> Probe:
-        """Return the simplest found; end early at a case whose cause is known."""
         while self.asked < self._most and self._pass(is_known):
             pass
         return self.best
@@ -125,7 +118,6 @@ class Shrinker:
 
 
 def cost(probe: Probe) -> Cost:
-    """Return how far from simple a case is."""
     kinds = [type(node) for node in nodes(probe.solid)]
     faces = [FACES[kind] for kind in kinds if kind in FACES]
     return len(faces), len(kinds), sum(faces), sum(map(number_cost, numbers(probe)))
@@ -146,7 +138,6 @@ def number_cost(x: float) -> int:
 
 
 def fewer_parts(probe: Probe) -> Iterator[Probe]:
-    """Yield the probe with a tree replaced by a part, a part dropped, a leaf by a simpler one."""
     for solid in _fewer(probe.solid):
         yield Probe(solid, probe.ray)
 
@@ -167,7 +158,6 @@ def _fewer(solid: Solid) -> Iterator[Solid]:
 
 
 def as_wholes(probe: Probe, fmt: Format) -> Iterator[Probe | None]:
-    """Yield the probe moved, scaled, turned and rounded as a whole."""
     yield from _placed(probe)
     yield from _sized(probe)
     yield from _aligned(probe)
@@ -247,7 +237,6 @@ def _vectors(probe: Probe) -> Iterator[int]:
 
 
 def by_number(probe: Probe, slot: int) -> Iterator[Probe | None]:
-    """Yield the probe with one number simpler."""
     x = numbers(probe)[slot]
     if not x:
         yield with_number(probe, slot, 0.0)

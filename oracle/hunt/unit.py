@@ -137,7 +137,6 @@ class Site:
         return seen
 
     def haul(self, cut: bool) -> Haul:
-        """Return the result so far."""
         return Haul(self.unit.number, self.tried, self.worst, tuple(self.failures), cut)
 
 
@@ -145,12 +144,10 @@ class Ledger:
     """The results so far."""
 
     def __init__(self) -> None:
-        """Begin at unit 0."""
         self.results: dict[int, Haul] = {}
         self._next = 0
 
     def add(self, result: Haul) -> bool:
-        """Count a result; return whether it is new."""
         if result.number in self.results:
             return False
         self.results[result.number] = result
@@ -170,5 +167,4 @@ class Ledger:
 
     @property
     def tried(self) -> int:
-        """Return how many cases were tried."""
         return sum(result.tried for result in self.results.values())

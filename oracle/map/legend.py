@@ -51,7 +51,6 @@ def class_of(cell: Cell) -> str:
 
 
 def classes(found: Map) -> list[tuple[str, int]]:
-    """Return the classes of a map with how many cells each has, in the order of a legend."""
     counts = Counter(name for name in map(class_of, found.cells.values()) if name)
 
     def place(name: str) -> tuple[int, int, str]:
@@ -149,7 +148,6 @@ def extremes(found: Map) -> tuple[float, float] | None:
 
 
 def summary(found: Map) -> Iterator[str]:
-    """Yield lines that say what was found."""
     total, cells = len(found.raster.places), found.cells.values()
     yield f"{len(cells)} of {total} cells" + ("" if found.whole else "; interrupted")
     for name, count in classes(found):
@@ -168,12 +166,10 @@ def summary(found: Map) -> Iterator[str]:
 
 
 def endless_text(found: Map) -> str:
-    """Return what an infinite number of a map means."""
     return "no k is enough" if found.show == "k" else "another number of pairs"
 
 
 def subtitle(found: Map) -> str:
-    """Return what a map shows, and of whom."""
     name = f" of {found.hello.name}" if found.hello else ""
     shown = {
         "exact": "exact answer: pairs, and rows of the case table or faces",
@@ -255,7 +251,6 @@ def _pairs(pairs: Any) -> list[list[str]]:
 
 
 def _answer(cell: Cell) -> Any:
-    """Return what was answered: pairs, a first hit, a yes or no, or why nothing."""
     outcome = cell.outcome
     if outcome is None or silence(outcome):
         return {"failure": cell.says}

@@ -57,14 +57,12 @@ class Inputs:
     """A case as a form whose numbers can be replaced."""
 
     def __init__(self, solid: Solid, ray: Ray, fmt: Format = BINARY64) -> None:
-        """Take the case apart."""
         self.format = fmt
         self.form: Json = {"solid": write_solid(solid), "ray": write_ray(ray)}
         self._numbers = dict(_numbers(self.form, ""))
 
     @property
     def paths(self) -> tuple[str, ...]:
-        """Return the paths of all inputs, those of the solid first."""
         return tuple(self._numbers)
 
     def __getitem__(self, path: str) -> float:
@@ -164,7 +162,6 @@ class Raster:
 
     @cached_property
     def paths(self) -> tuple[str, ...]:
-        """Return the paths that are moved, in the order of the axes."""
         return tuple(dict.fromkeys(path for path, _ in (*self.x.terms, *self.y.terms)))
 
     def values(self, at: At) -> dict[str, float]:
@@ -177,7 +174,6 @@ class Raster:
         return {path: moved(self.inputs[path], by, self.unit, fmt) for path, by in moves.items()}
 
     def probe(self, at: At) -> Probe:
-        """Return the probe of a cell. Raises `Refused` where it is none."""
         return self.inputs.probe(self.values(at))
 
 

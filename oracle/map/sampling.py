@@ -149,12 +149,10 @@ class Comparison:
     """Answers cells exactly and compares; remembers the step of the last k as a guess."""
 
     def __init__(self, show: Show, hello: Hello | None, fmt: Format) -> None:
-        """Prepare for the answers of a target that said this hello; None if there is none."""
         self._show, self._hello, self._format = show, hello, fmt
         self._guess = 0
 
     def __call__(self, probe: Probe, outcome: Outcome | None) -> Cell:
-        """Return the cell of a probe and what was answered to it."""
         hello = self._hello
         form, exact = topology(probe)
         wanted = expected(exact.intervals, self._format)[1]
@@ -178,7 +176,6 @@ class Comparison:
         return replace(cell, says=difference(said, judge))
 
     def _k(self, said: Claim, judge: Judge) -> float:
-        """Return the strict backward error."""
         if isinstance(said, Listed) and judge.format is BINARY64 and not judge.tolerance:
             k, self._guess = error(judge.solid, judge.ray, said.pairs, self._guess)
             return k
@@ -186,7 +183,6 @@ class Comparison:
 
 
 def looks(said: Claim) -> str:
-    """Return the form of an answer, as far as it tells one."""
     match said:
         case Listed(pairs):
             return counted([a == b for a, b in pairs])

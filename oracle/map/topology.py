@@ -44,7 +44,6 @@ class Topology:
 
     @property
     def pairs(self) -> int:
-        """Return the number of pairs."""
         return len(self.ends)
 
     @property
@@ -86,7 +85,6 @@ def _spelled(pair: Ends) -> str:
 
 
 def topology(probe: Probe) -> tuple[Topology, Answer]:
-    """Return the form of a probe's exact answer, and the answer."""
     solid, ray = probe
     answer = trace(solid, ray)
     ends = tuple((place(a, solid, ray), place(b, solid, ray)) for a, b in answer.intervals)
