@@ -98,49 +98,42 @@ def draw_map(**options: Any) -> None:
     """
     if count_given(options) != 1:
         raise click.UsageError("give one case: an ID, or --json, or a solid with --ray")
-    write = _writers(options["outs"])
+    writers = [_writer(path) for path in options["outs"]]
     show = options["show"] or ("k" if options["target"] else "exact")
     if show == "exact" and options["target"]:
         raise click.UsageError("--show exact asks no --target")
     found = _sampled(_raster(options), show, options)
     if not found.cells:
         raise click.ClickException("interrupted before a cell was done; nothing was written")
-    for path in options["outs"]:
-        write[path](found, _title(options))
-    _print(found, options["outs"])
+    for write in writers:
+        write(found, _title(options))
+    from raycert.oracle.map.legend import summary
+
+    click.echo("\n".join(summary(found)))
+    click.echo(f"wrote {', '.join(map(str, options['outs']))}")
 
 
-def _writers(outs: tuple[Path, ...]) -> dict[Path, Callable[[Map, str], None]]:
-    """Return for each file what writes it; refuse now what cannot be written."""
-    found: dict[Path, Callable[[Map, str], None]] = {}
-    for path in outs:
-        suffix = path.suffix.lower()
-        if suffix not in (*PICTURES, *DATA):
-            known = ", ".join((*PICTURES, *DATA))
-            raise click.BadParameter(f"{path}: not one of {known}", param_hint="--out")
-        check_writable(path.parent, "--out")
-        found[path] = _picture(path) if suffix in PICTURES else _data(path)
-    return found
-
-
-def _picture(path: Path) -> Callable[[Map, str], None]:
-    try:
-        from raycert.oracle.plots.mapping import save
-    except ImportError as error:
-        raise BadInput(
-            f'pictures need matplotlib: pip install "raycert[plots]" ({error})'
-        ) from None
-    return lambda found, title: save(found, title, path)
-
-
-def _data(path: Path) -> Callable[[Map, str], None]:
-    import json
+def _writer(path: Path) -> Callable[[Map, str], None]:
+    """Return what writes a map, under a title, to the file; refuse now what cannot be written."""
+    suffix = path.suffix.lower()
+    if suffix not in (*PICTURES, *DATA):
+        known = ", ".join((*PICTURES, *DATA))
+        raise click.BadParameter(f"{path}: not one of {known}", param_hint="--out")
+    check_writable(path.parent, "--out")
+    if suffix in PICTURES:
+        try:
+            from raycert.oracle.plots.mapping import save
+        except ImportError as error:
+            need = 'pictures need matplotlib: pip install "raycert[plots]"'
+            raise BadInput(f"{need} ({error})") from None
+        return lambda found, title: save(found, title, path)
+    from json import dumps
 
     from raycert.oracle.map.legend import to_csv, to_json
 
-    if path.suffix.lower() == ".csv":
+    if suffix == ".csv":
         return lambda found, _: write_text(path, to_csv(found))
-    return lambda found, _: write_text(path, json.dumps(to_json(found), indent=1) + "\n")
+    return lambda found, _: write_text(path, dumps(to_json(found), indent=1) + "\n")
 
 
 def _raster(options: dict[str, Any]) -> Raster:
@@ -190,11 +183,3 @@ def _title(options: dict[str, Any]) -> str:
     shape = next((name for name in SHAPES if options[name]), None)
     solid = "solid" if shape is None else shape.replace("_", " ")
     return f"Around a ray and {'an' if solid[0] in 'aeiou' else 'a'} {solid}"
-
-
-def _print(found: Map, outs: tuple[Path, ...]) -> None:
-    from raycert.oracle.map.legend import summary
-
-    for line in summary(found):
-        click.echo(line)
-    click.echo(f"wrote {', '.join(map(str, outs))}")

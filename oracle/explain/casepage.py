@@ -1,31 +1,64 @@
 """One case as an HTML page that needs nothing else: pictures, answers, derivation.
 
 Each implementation is asked that case alone. What it answered, and what a golden file says, is
-cleaned; the template escapes it besides.
+cleaned; the template escapes it besides. The pictures are two views, and a close look at each end,
+where ticks are the numbers of the format: 0 is the one nearest to the exact end.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
+from math import isfinite, isnan
 from typing import Any
+from xml.etree.ElementTree import Element
 
+from raycert.cases.accept import Accept, Numbers
+from raycert.cases.formats import Format
 from raycert.cases.levels import LEVELS
 from raycert.cases.model import types
 from raycert.cases.protocol import Hello
-from raycert.cases.row import GoldenRow
+from raycert.cases.row import End, GoldenRow
 from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.client.dialogue import Limits, Question, Target, Unusable
 from raycert.oracle.client.replay import greet, run
-from raycert.oracle.explain.casepicture import NAME, AnswerLine, closeups, lists, wholes
-from raycert.oracle.explain.casepicture import numbers as drawable
 from raycert.oracle.explain.console import case_lines
 from raycert.oracle.explain.derive import Derivation
 from raycert.oracle.explain.wording import Fact, Note, Passage, Table, numbers, shorten
 from raycert.oracle.judge.answer import First, YesNo
+from raycert.oracle.reports.numberline import (
+    GUTTER,
+    PLOT,
+    ROW,
+    WIDTH,
+    CaseLists,
+    Lane,
+    Pairs,
+    Ruler,
+    drawing,
+    el,
+    known,
+    label,
+    lanes,
+    ticks,
+    ulp,
+    whole,
+)
 from raycert.oracle.reports.page import render
+from raycert.oracle.reports.picture import (
+    GAP,
+    TALL,
+    axis_of,
+    base_of,
+    drawn,
+    guides,
+    pointer,
+    ray_height,
+)
 from raycert.oracle.reports.reading import clean, number
+from raycert.oracle.reports.section import Slice, View, views
 
 Json = dict[str, Any]
 LONG = 4000
@@ -183,3 +216,189 @@ def _line(line: Fact | Table | Note) -> Json:
         "about": clean(line.about),
         "note": clean(line.note),
     }
+
+
+ENDS = 8
+"""At how many ends there is a close look."""
+NAME = 10
+"""Characters of a name that fit beside a line."""
+NARROW, WIDE = Fraction(5, 2), 60
+"""Ulps to either side of an end: at least, and at most to have the ends of answers in."""
+USUAL = 900
+"""Powers of two up to this are written as numbers on a scale."""
+Drawn = list[tuple[str, str]]
+"""Captions, each with its drawing."""
+
+
+@dataclass(frozen=True, slots=True)
+class AnswerLine:
+    """An answer to draw: a name, and its list, or what is said in place of one."""
+
+    name: str
+    pairs: Pairs | None
+    silence: str = ""
+    point: bool = False
+    """Whether it is a first hit: a list of one point."""
+
+    @property
+    def lane(self) -> Lane:
+        silence = "" if self.pairs else clean(self.silence, 44)
+        return Lane(clean(self.name, NAME), ((self.pairs or (), "said"),), silence)
+
+
+def drawable(pairs: Numbers | None) -> Pairs | None:
+    """Return a list to draw; None where it has a NaN, or is none."""
+    if pairs is None or any(isnan(x) for pair in pairs for x in pair):
+        return None
+    return tuple((_number(a), _number(b)) for a, b in pairs)
+
+
+def _number(x: float) -> Fraction | float:
+    return Fraction(x) if isfinite(x) else x
+
+
+def lists(row: GoldenRow, accept: Accept) -> CaseLists:
+    exact = tuple((_end(span.enter), _end(span.leave)) for span in row.intervals)
+    return CaseLists(exact, drawable(accept.inner) or (), drawable(accept.outer) or (), None)
+
+
+def _end(end: End) -> Fraction | float:
+    return float("inf") if end.digits == "inf" else Fraction(end.digits)
+
+
+def wholes(row: GoldenRow, all_lists: CaseLists, said: Sequence[AnswerLine]) -> Drawn:
+    """Return the views of a case; under the first of them are the intervals over t."""
+    ends = all_lists.finite(all_lists.exact)
+    found = views(row.solid, row.ray, ends)
+    drawings = [_lined(next(iter(found), None), all_lists, said)]
+    return drawings + [_alone(view, all_lists) for view in found[1:]]
+
+
+def _lined(view: View | None, all_lists: CaseLists, said: Sequence[AnswerLine]) -> tuple[str, str]:
+    """Return a view over the intervals, both on one scale of t; without one the intervals."""
+    still = view is not None and view.still
+    axis = whole(all_lists) if view is None or still else axis_of(view.section)
+    top = 4.0 if view is None else TALL + GAP
+    parts: list[Element] = []
+    if view is not None:
+        parts += drawn(view.section, axis_of(view.section), view.still)
+    if view is not None and not still:
+        parts += guides(all_lists.finite(all_lists.exact), axis, top + ROW)
+        parts += _inside(view.section, axis, all_lists.exact)
+    shown = (*known(all_lists), *(one.lane for one in said))
+    foot = top + len(shown) * ROW
+    scale, offset = _scale(axis, foot)
+    parts += [*lanes(shown, axis, top), *scale]
+    caption = ("The intervals" if view is None else view.name) + f", over t{offset}"
+    return caption, drawing(foot + 20, caption, *parts)
+
+
+def _scale(axis: Ruler, foot: float) -> tuple[list[Element], str]:
+    """Return the scale of t, and what a caption says of it: an offset, or a far power of ten."""
+    span = axis.unit * PLOT
+    bits = span.numerator.bit_length() - span.denominator.bit_length()
+    if abs(bits) > USUAL or abs(axis.middle) > 2**USUAL:
+        power = bits * 3 // 10
+        name = f"t / 1e{power}"
+        scale = list(ticks(axis, Fraction(0), Fraction(10) ** power, foot))
+        return [*scale, label(0, foot + 16, name, "name")], f" / 1e{power}"
+    base = base_of(axis)
+    scale = [*ticks(axis, base, Fraction(1), foot)]
+    scale.append(label(0, foot + 16, "t - c" if base else "t", "name"))
+    return scale, f" - c, c = {float(base):.17g}" if base else ""
+
+
+def _inside(scene: Slice, axis: Ruler, exact: Pairs) -> Iterator[Element]:
+    y = ray_height(scene)
+    for enter, leave in exact:
+        a, b = (max(GUTTER, min(axis.x(t), WIDTH)) for t in (enter, leave))
+        if b - a >= 1:
+            yield el("line", x1=a, x2=b, y1=y, y2=y, kind="inside")
+        elif axis.shows(enter):
+            yield el("circle", cx=a, cy=y, r=4, kind="exact")
+
+
+def _alone(view: View, all_lists: CaseLists) -> tuple[str, str]:
+    """Return a view with a scale of its own, the exact ends on it."""
+    axis = axis_of(view.section)
+    parts = list(drawn(view.section, axis, view.still))
+    if view.still:
+        return view.name, drawing(TALL + 4, view.name, *parts)
+    scale, offset = _scale(axis, TALL)
+    parts += guides(all_lists.finite(all_lists.exact), axis, TALL)
+    parts += [*_inside(view.section, axis, all_lists.exact), *scale]
+    caption = view.name + (f", over t{offset}" if offset else "")
+    return caption, drawing(TALL + 20, caption, *parts)
+
+
+def closeups(
+    row: GoldenRow, all_lists: CaseLists, said: Sequence[AnswerLine], fmt: Format
+) -> Drawn:
+    """Return a close look at each exact end but 0 and infinity, up to `ENDS` of them.
+
+    An end that is on the one before is not looked at again.
+    """
+    found: Drawn = []
+    last: Fraction | None = None
+    for i, span in enumerate(row.intervals):
+        for side, end in enumerate((span.enter, span.leave)):
+            t = _end(end)
+            if not isinstance(t, Fraction) or not t or not isfinite(end.nearest):
+                continue
+            if len(found) == ENDS or (last is not None and abs(t - last) < 2 * ulp(t, fmt)):
+                continue
+            last = t
+            offs = [_off(one, end, (i, side), all_lists, fmt) for one in said]
+            found.append(_close(end, ("enter", "leave")[side], all_lists, (said, offs), fmt))
+    return found
+
+
+def _close(
+    end: End,
+    name: str,
+    all_lists: CaseLists,
+    answers: tuple[Sequence[AnswerLine], Sequence[Fraction | None]],
+    fmt: Format,
+) -> tuple[str, str]:
+    said, offs = answers
+    origin = Fraction(end.nearest)
+    unit = ulp(origin, fmt)
+    reach = max([NARROW, *(abs(off) for off in offs if off is not None and abs(off) <= WIDE)])
+    axis = Ruler(origin, reach * unit * Fraction(26, 10) / Fraction(PLOT))
+    shown = (*known(all_lists), *(one.lane for one in said))
+    top = 4.0
+    foot = top + len(shown) * ROW
+    parts = [*_numbers(axis, origin, unit, foot), *lanes(shown, axis, top)]
+    parts += [*ticks(axis, origin, unit, foot), label(0, foot + 16, "ulps", "name")]
+    for i, off in enumerate(offs, 2):
+        if off is not None and not axis.shows(origin + off * unit):
+            parts.append(pointer(off, top + i * ROW))
+    caption = f"{name} at t = {end.nearest!r}, in ulps of {float(unit):.2g}"
+    return caption, drawing(foot + 20, caption, *parts)
+
+
+def _off(
+    one: AnswerLine, end: End, place: tuple[int, int], all_lists: CaseLists, fmt: Format
+) -> Fraction | None:
+    """Return how far an answer's end is from the number at an exact one, in ulps.
+
+    The same end where the lists are as long, else the nearest. None where it has none that is
+    finite, and for a first hit that is not near.
+    """
+    origin = Fraction(end.nearest)
+    ends = all_lists.finite(one.pairs)
+    if not one.point and len(one.pairs or ()) == len(all_lists.exact):
+        same = (one.pairs or ())[place[0]][place[1]]
+        ends = [same] if isinstance(same, Fraction) else []
+    off = min(((x - origin) / ulp(origin, fmt) for x in ends), key=abs, default=None)
+    return None if off is None or (one.point and abs(off) > WIDE) else off
+
+
+def _numbers(axis: Ruler, origin: Fraction, unit: Fraction, foot: float) -> Iterator[Element]:
+    """Yield a line for each number, as long as they are apart."""
+    count = int(PLOT * axis.unit / unit / 2)
+    if count > WIDE // 2:
+        return
+    for n in range(-count, count + 1):
+        x = axis.x(origin + n * unit)
+        yield el("line", x1=x, x2=x, y1=0, y2=foot, kind="unit")

@@ -77,8 +77,8 @@ Ray(origin=(-2.0, 0.0, 0.0), direction=(1.0, 0.0, 0.0)))
 
     def _repr_html_(self) -> str:
         """Return the picture: ray and solid, over the intervals in t."""
-        from raycert.oracle.explain.casepicture import lists as drawable
-        from raycert.oracle.explain.casepicture import wholes
+        from raycert.oracle.explain.casepage import lists as drawable
+        from raycert.oracle.explain.casepage import wholes
 
         row = _derived(self.solid, self.ray, "binary64").row
         drawn = wholes(row, drawable(row, row.accept["stable"]), ())

@@ -79,13 +79,13 @@ class Processes:
     def __init__(self, work: Work, count: int) -> None:
         """Start so many processes for the work, which has to be importable there."""
         self.places = count
-        self._work = work
-        self._pool = self._new()
+        self._work, self._losses = work, 0
         self._units: dict[Future[Haul], Unit] = {}
-        self._losses = 0
+        self._open()
 
-    def _new(self) -> ProcessPoolExecutor:
-        return ProcessPoolExecutor(self.places, get_context("spawn"), _leave_interrupts)
+    def _open(self) -> None:
+        ignore = signal.signal, (signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for who waits
+        self._pool = ProcessPoolExecutor(self.places, get_context("spawn"), *ignore)
 
     def submit(self, unit: Unit) -> None:
         try:
@@ -113,7 +113,7 @@ class Processes:
         waiting = [*units, *self._units.values()]
         self._units.clear()
         self._pool.shutdown(wait=False, cancel_futures=True)
-        self._pool = self._new()
+        self._open()
         for unit in sorted(waiting, key=lambda unit: unit.number):
             self.submit(unit)
 
@@ -121,10 +121,6 @@ class Processes:
         for process in list((self._pool._processes or {}).values()):
             process.terminate()
         self._pool.shutdown(wait=True, cancel_futures=True)
-
-
-def _leave_interrupts() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
 
 
 class Cluster:

@@ -8,7 +8,9 @@ directory that is not of this hunt stays as it is.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterable, Sequence
+from dataclasses import asdict
 from math import inf, isinf
 from pathlib import Path
 from typing import Any
@@ -37,11 +39,8 @@ def named(findings: Iterable[Finding], seed: int) -> dict[str, Finding]:
     """Return findings by their ids: `hunt-7/missed-sphere-1`."""
     names: dict[str, Finding] = {}
     for finding in findings:
-        symptom = finding.symptom
-        words = f"{symptom.kind}-{symptom.shape.partition('(')[0]}".replace(" ", "-").replace(
-            "_", "-"
-        )
-        stem = f"{family(seed)}/{words}"
+        words = f"{finding.symptom.kind}-{finding.symptom.shape.partition('(')[0]}"
+        stem = f"{family(seed)}/{re.sub('[ _]', '-', words)}"
         number = 1 + sum(id.rpartition("-")[0] == stem for id in names)
         names[f"{stem}-{number}"] = finding
     return names
@@ -49,19 +48,17 @@ def named(findings: Iterable[Finding], seed: int) -> dict[str, Finding]:
 
 def rows(findings: dict[str, Finding], looker: Looker) -> list[GoldenRow]:
     """Return the golden rows of findings that repeat. Raises `Contradiction`."""
-    made = []
-    repeating = ((id, finding) for id, finding in findings.items() if finding.repeats)
-    for id, finding in repeating:
-        for i, probe in enumerate(finding.before, 1):
-            made.append(_row(f"{id}-before-{i}", "Is asked before the next row.", probe, looker))
-        why = f"A hunt found an answer here that fails: {_why(finding)}."
-        made.append(_row(id, why, finding.probe, looker))
-    return made
-
-
-def _why(finding: Finding) -> str:
-    text = f"{finding.flaw.level}, {finding.flaw.kind}: {finding.flaw.reason}"
-    return text.encode("ascii", "backslashreplace").decode()[:200]
+    found = []
+    for id, finding in findings.items():
+        if finding.repeats:
+            for i, probe in enumerate(finding.before, 1):
+                before = _row(f"{id}-before-{i}", "Is asked before the next row.", probe, looker)
+                found.append(before)
+            text = f"{finding.flaw.level}, {finding.flaw.kind}: {finding.flaw.reason}"
+            how = text.encode("ascii", "backslashreplace").decode()[:200]
+            why = f"A hunt found an answer here that fails: {how}."
+            found.append(_row(id, why, finding.probe, looker))
+    return found
 
 
 def _row(id: str, why: str, probe: Probe, looker: Looker) -> GoldenRow:
@@ -101,9 +98,7 @@ def form(found: Hunt, findings: dict[str, Finding], asked: Json) -> Json:
 def _finding(finding: Finding) -> Json:
     return {
         "cause": str(finding.symptom),
-        "level": finding.flaw.level,
-        "kind": finding.flaw.kind,
-        "reason": finding.flaw.reason,
+        **asdict(finding.flaw),
         "k": _number(finding.k),
         "answer": answer(finding.outcome),
         "repeats": finding.repeats,

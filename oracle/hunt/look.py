@@ -82,9 +82,6 @@ class Observation:
     ulps: float = 0.0
 
 
-RIGHT = Observation()
-
-
 @dataclass(frozen=True, slots=True)
 class Looker:
     """Judges the answers of a target that said this hello, on the types of solid wanted of it."""
@@ -117,21 +114,14 @@ class Looker:
         assert isinstance(outcome, Reply)
         said, judge = claim(outcome, self.hello), self.judge(probe)
         if isinstance(said, Listed) and said.pairs == judge.expected:
-            return (
-                RIGHT
-                if self.criterion.convention is None
-                else Observation(self._unkept(said, judge))
-            )
+            return Observation(self._unkept(said, judge))
         if malformed := said.malformed(judge):
             return Observation(Flaw("sound", "malformed", malformed), inf)
         if unkept := self._unkept(said, judge):
             return Observation(unkept)
         if said.is_faithful(judge.expected, judge.enclosures) is None:
-            return (
-                Observation(self._finer(probe, outcome))
-                if self.criterion.level == "exact"
-                else RIGHT
-            )
+            asked = self.criterion.level == "exact"
+            return Observation(self._finer(probe, outcome) if asked else None)
         k = coarse_k(said, judge)
         flaw = self._gross(said, judge)
         if flaw is None and self.criterion.level in ("faithful", "exact"):

@@ -35,8 +35,7 @@ from raycert.cases.numbers import Probe, between, numbers, ordinal
 from raycert.oracle.corpus.fresh import possible
 from raycert.oracle.hunt.look import Observation
 from raycert.oracle.hunt.moves import MOVES, form, of_format, on_lattice, overflow, pick
-from raycert.oracle.hunt.session import TimeUp
-from raycert.oracle.hunt.unit import Haul, Job, Site, Spent, Suspect, Unit, coarse
+from raycert.oracle.hunt.unit import Haul, Job, Site, Spent, Suspect, TimeUp, Unit, coarse
 
 if TYPE_CHECKING:
     from hypothesis import settings

@@ -12,15 +12,28 @@ import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import count
 from math import inf
 
 from raycert.cases.numbers import Probe
 from raycert.oracle.client.dialogue import Outcome, Unusable
 from raycert.oracle.hunt.executors import Executor, Lost
 from raycert.oracle.hunt.look import UNREPEATED, Flaw, Looker, Symptom, symptom
-from raycert.oracle.hunt.session import Clock, Session, TimeUp
-from raycert.oracle.hunt.shrink import Shrinker, cost
-from raycert.oracle.hunt.unit import CASES, EACH, Haul, Job, Ledger, Suspect, Unit, Worst, coarse
+from raycert.oracle.hunt.moves import Shrinker, cost
+from raycert.oracle.hunt.unit import (
+    CASES,
+    EACH,
+    Clock,
+    Haul,
+    Job,
+    Ledger,
+    Session,
+    Suspect,
+    TimeUp,
+    Unit,
+    Worst,
+    coarse,
+)
 
 LINGER = 2.0
 """Seconds after the last for units to give what they have."""
@@ -112,34 +125,30 @@ class _Course:
         self.found = self._catch.found
 
     def run(self) -> None:
-        units = self._units()
+        units, end = self._units(), self._clock.end
         waiting = next(units, None)
         while waiting or self._out:
             while waiting and self._out < self._executor.places:
-                self._executor.submit(replace(waiting, seconds=self._left()))
+                seconds = None if end == inf else max(end - time.monotonic(), 0.01)
+                self._executor.submit(replace(waiting, seconds=seconds))
                 self._out += 1
                 waiting = next(units, None)
-            self._collect()
-            if self._take(self.ledger.in_order()) or time.monotonic() > self._clock.end + LINGER:
+            for result in self._executor.finished(POLL):
+                self._out -= self.ledger.add(result)
+            self._tell()
+            if self._take(self.ledger.in_order()) or time.monotonic() > end + LINGER:
                 break
-            if time.monotonic() > self._clock.end:
+            if time.monotonic() > end:
                 waiting = None
         self._take(self.ledger.rest())
 
     def _units(self) -> Iterator[Unit]:
-        number, left = 0, self._budget.cases
-        while left is None or left > 0:
-            size = self._budget.unit if left is None else min(left, self._budget.unit)
-            yield Unit(number, size)
-            number, left = number + 1, None if left is None else left - size
-
-    def _left(self) -> float | None:
-        return None if self._clock.end == inf else max(self._clock.end - time.monotonic(), 0.01)
-
-    def _collect(self) -> None:
-        for result in self._executor.finished(POLL):
-            self._out -= self.ledger.add(result)
-        self._tell()
+        cases, size = self._budget.cases, self._budget.unit
+        if cases is None:
+            yield from (Unit(number, size) for number in count())
+        else:
+            for number, start in enumerate(range(0, cases, size)):
+                yield Unit(number, min(size, cases - start))
 
     def _take(self, results: Iterator[Haul]) -> bool:
         """Take up results in turn; return whether enough was found."""
@@ -183,12 +192,14 @@ class Catch:
             yield
 
     def _add(self, finding: Finding | None) -> None:
-        """Keep a finding, unless a simpler one has the same cause."""
-        if finding is None:
-            return
-        old = self.found.findings.get(finding.symptom)
-        if old is None or cost(finding.probe) < cost(old.probe):
+        """Keep a finding, unless one as simple has the same cause."""
+        if finding and not self._is_known(finding.symptom, finding.probe):
             self.found.findings[finding.symptom] = finding
+
+    def _is_known(self, cause: Symptom, probe: Probe) -> bool:
+        """Whether the cause was found in a case that is as simple."""
+        old = self.found.findings.get(cause)
+        return old is not None and cost(old.probe) <= cost(probe)
 
     def _afresh(self, probe: Probe, before: Sequence[Probe]) -> tuple[Outcome, Flaw | None]:
         """Return what a new process answers to a probe after some others, and its flaw."""
@@ -214,8 +225,7 @@ class Catch:
             return [self._same(s, o, flaw) for s, o in zip(probes, outcomes, strict=True)]
 
         def is_known(probe: Probe) -> bool:
-            old = self.found.findings.get(symptom(probe, flaw))
-            return old is not None and cost(old.probe) <= cost(probe)
+            return self._is_known(symptom(probe, flaw), probe)
 
         shrinker = Shrinker(suspect.probe, fails, self.looker.hello.format)
         try:
@@ -231,37 +241,29 @@ class Catch:
         for probe in (best, suspect.probe):
             outcome, again = self._afresh(probe, before)
             if again:
-                return self._finding(suspect, probe, again, before, outcome)
+                return self._finding(suspect, probe, again, outcome, before)
         return self._unrepeated(suspect, outcome)
 
     def _unrepeated(self, suspect: Suspect, outcome: Outcome) -> Finding:
         flaw = replace(suspect.flaw, kind=UNREPEATED)
-        return self._finding(suspect, suspect.probe, flaw, (), outcome, repeats=False)
+        return replace(self._finding(suspect, suspect.probe, flaw, outcome), repeats=False)
 
     def _same(self, probe: Probe, outcome: Outcome, flaw: Flaw) -> bool:
         """Whether a case fails in the same way, on the same level or a weaker one."""
         seen = self.looker(probe, outcome).flaw if self.looker.wants(probe) else None
-        if seen is None or seen.kind != flaw.kind:
-            return False
-        return seen.level == flaw.level or (seen.level, flaw.level) == ("sound", "stable")
+        levels = {flaw.level, "sound"} if flaw.level == "stable" else {flaw.level}
+        return seen is not None and seen.kind == flaw.kind and seen.level in levels
 
     def _finding(
         self,
         suspect: Suspect,
         probe: Probe,
         flaw: Flaw,
-        before: tuple[Probe, ...],
         outcome: Outcome,
-        repeats: bool = True,
+        before: tuple[Probe, ...] = (),
     ) -> Finding:
+        after = time.monotonic() - self._began
+        k = self.looker.true_k(probe, outcome)
         return Finding(
-            symptom=symptom(probe, flaw),
-            probe=probe,
-            flaw=flaw,
-            outcome=outcome,
-            first=suspect.probe,
-            k=self.looker.true_k(probe, outcome),
-            before=before,
-            repeats=repeats,
-            after=time.monotonic() - self._began,
+            symptom(probe, flaw), probe, flaw, outcome, suspect.probe, k, before, after=after
         )

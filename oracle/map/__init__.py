@@ -1,7 +1,6 @@
 """What surrounds a case: two directions in the space of its inputs, sampled cell by cell.
 
 raster    inputs by their paths, directions of them; how far each cell moves, on which grid
-topology  the form of an exact answer, and what lies between two of them
-sampling  every cell answered, exactly and by an implementation, and compared
+sampling  every cell answered, exactly and by an implementation; what lies between two forms
 legend    what is said of a map: classes, curves, the words for them; JSON and CSV
 """

@@ -21,14 +21,16 @@ from raycert.oracle.map.sampling import (
     EXACT,
     FAITHFUL,
     FEW,
+    KINDS,
     MANY,
     NUMBERS,
     RIGHT,
     WITHIN,
     Cell,
+    Kind,
     Map,
+    between,
 )
-from raycert.oracle.map.topology import KINDS, Kind, between
 
 ORDER = (EXACT, FAITHFUL, *(how + k for k in (WITHIN, BEYOND) for how in (RIGHT, FEW, MANY)))
 """The classes of a disagreement, from none to the worst."""
@@ -72,9 +74,8 @@ def thin(found: Map) -> dict[At, Kind]:
 
     An area is a square of four cells that meet the same; there the form is what is usual.
     """
-    met = {
-        at: c.topology.kinds[0] for at, c in found.cells.items() if c.topology and c.topology.kinds
-    }
+    forms = {at: cell.topology for at, cell in found.cells.items() if cell.topology}
+    met = {at: form.kinds[0] for at, form in forms.items() if form.kinds}
 
     def fills(i: int, j: int) -> bool:
         square = {met.get(at) for at in ((i, j), (i + 1, j), (i, j + 1), (i + 1, j + 1))}
@@ -96,15 +97,10 @@ def edges(found: Map) -> dict[Kind, list[Edge]]:
     line = thin(found)
     plain = {at: c.topology for at, c in found.cells.items() if c.topology and at not in line}
     for (i, j), form in plain.items():
-        sides: tuple[tuple[At, Edge], ...] = (
-            ((i + 1, j), ((i + 1, j), (i + 1, j + 1))),
-            ((i, j + 1), ((i, j + 1), (i + 1, j + 1))),
-        )
-        for beside, edge in sides:
+        for beside in ((i + 1, j), (i, j + 1)):
             other = plain.get(beside)
-            kind = between(form, other) if other else None
-            if kind:
-                by_kind[kind].append(edge)
+            if other and (kind := between(form, other)):
+                by_kind[kind].append((beside, (i + 1, j + 1)))
     return {kind: found for kind, found in by_kind.items() if found}
 
 
@@ -112,8 +108,7 @@ def links(places: Collection[At]) -> list[Edge]:
     """Return the pairs of cells that touch: at a side, or at a corner where no side leads on."""
     found = list[Edge]()
     for i, j in places:
-        beside = (at for at in ((i + 1, j), (i, j + 1)) if at in places)
-        found += (((i, j), at) for at in beside)
+        found += (((i, j), at) for at in ((i + 1, j), (i, j + 1)) if at in places)
         for up in (1, -1):
             corners = (i + 1, j), (i, j + up)
             if (i + 1, j + up) in places and not any(at in places for at in corners):
@@ -127,13 +122,11 @@ def lines(edges: list[Edge]) -> list[list[Corner]]:
     for a, b in edges:
         at.setdefault(a, []).append(b)
         at.setdefault(b, []).append(a)
-    starts = sorted(at, key=lambda corner: (len(at[corner]) % 2 == 0, corner))
     joined = []
-    for start in starts:
+    for start in sorted(at, key=lambda corner: (len(at[corner]) % 2 == 0, corner)):
         while at[start]:
             line = [start]
-            while at[line[-1]]:
-                here = line[-1]
+            while at[here := line[-1]]:
                 there = at[here].pop(0)
                 at[there].remove(here)
                 line.append(there)
@@ -213,22 +206,18 @@ def to_json(found: Map) -> Json:
         "unit": raster.unit,
         "step": float(raster.step),
         "half": raster.half,
-        "axes": {name: dict(_weights(found, name)) for name in ("x", "y")},
+        "axes": {
+            name: {path: float(weight) for path, weight in getattr(raster, name).terms}
+            for name in ("x", "y")
+        },
         "whole": found.whole,
-        "topologies": [
-            {"label": form.label, "pairs": form.pairs, "kinds": list(form.kinds)} for form in forms
-        ],
+        "topologies": [{"label": x.label, "pairs": x.pairs, "kinds": [*x.kinds]} for x in forms],
         "cells": [_cell(found, at, cell, number) for at, cell in _rows(found)],
     }
 
 
 def _rows(found: Map) -> list[tuple[At, Cell]]:
     return sorted(found.cells.items(), key=lambda item: (item[0][1], item[0][0]))
-
-
-def _weights(found: Map, name: str) -> list[tuple[str, float]]:
-    direction = found.raster.x if name == "x" else found.raster.y
-    return [(path, float(weight)) for path, weight in direction.terms]
 
 
 def _cell(found: Map, at: At, cell: Cell, number: dict[Any, int]) -> Json:

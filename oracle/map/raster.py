@@ -13,13 +13,12 @@ Where both axes move an input, their moves add.
 from __future__ import annotations
 
 import re
-import struct
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from fractions import Fraction
 from functools import cached_property
-from math import inf, ldexp
+from math import copysign, inf, ldexp
 from typing import Any, Literal
 
 from raycert.cases.formats import BINARY64, Format
@@ -46,11 +45,11 @@ class Direction:
         """Return it as it is written, without the weight where that is 1 and alone."""
         if len(self.terms) == 1 and self.terms[0][1] == 1:
             return self.terms[0][0]
-        return ",".join(f"{path}={_spelled(weight)}" for path, weight in self.terms)
+        words = ((path, w if w.denominator == 1 else float(w)) for path, w in self.terms)
+        return ",".join(f"{path}={word}" for path, word in words)
 
 
-def _spelled(weight: Fraction) -> str:
-    return str(weight) if weight.denominator == 1 else repr(float(weight))
+Axes = tuple[Direction, Direction]
 
 
 class Inputs:
@@ -131,14 +130,7 @@ class Raster:
     half: int
 
     @classmethod
-    def of(
-        cls,
-        inputs: Inputs,
-        axes: tuple[Direction, Direction],
-        unit: Unit,
-        span: Fraction,
-        most: int,
-    ) -> Raster:
+    def of(cls, inputs: Inputs, axes: Axes, unit: Unit, span: Fraction, most: int) -> Raster:
         """Return the raster that reaches `span` on each side with about `most` cells on an axis.
 
         In ulps all steps are whole: where the span has more numbers than cells, every second or
@@ -177,7 +169,7 @@ class Raster:
         return self.inputs.probe(self.values(at))
 
 
-def _check(inputs: Inputs, axes: tuple[Direction, Direction], unit: Unit, span: Fraction) -> None:
+def _check(inputs: Inputs, axes: Axes, unit: Unit, span: Fraction) -> None:
     """Refuse what moves nothing, or not by whole steps."""
     if axes[0] == axes[1]:
         raise Refused("y", "is the same direction as x")
@@ -207,13 +199,6 @@ def on_grid(x: float, steps: int, fmt: Format) -> float:
     """
     if not x:
         return ldexp(float(steps), -fmt.precision)
-    place = _ordinal(x, fmt) + steps
-    if abs(place) >= _ordinal(inf, fmt):
-        return inf if place > 0 else -inf
-    size: float = struct.unpack(fmt.pack, abs(place).to_bytes(fmt.digits // 2, "big"))[0]
-    return size if place >= 0 else -size
-
-
-def _ordinal(x: float, fmt: Format) -> int:
-    place = int.from_bytes(struct.pack(fmt.pack, abs(x)), "big")
-    return -place if x < 0 else place
+    size, last = (int(fmt.bits(number), 16) for number in (abs(x), inf))
+    place = (size if x > 0 else -size) + steps
+    return copysign(fmt.from_bits(f"{min(abs(place), last):0{fmt.digits}x}"), place)

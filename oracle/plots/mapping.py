@@ -38,8 +38,7 @@ from raycert.oracle.map.legend import (
     thin,
 )
 from raycert.oracle.map.raster import At
-from raycert.oracle.map.sampling import NUMBERS, Cell, Map
-from raycert.oracle.map.topology import Kind
+from raycert.oracle.map.sampling import NUMBERS, Cell, Kind, Map
 from raycert.oracle.plots.style import DPI, FAINT, INK, PAPER, figure, plain, styled
 
 WIDTH, HEIGHT = 10.4, 6.4

@@ -15,8 +15,15 @@ from raycert.cases.protocol import Hello, Reply
 from raycert.cases.row import GoldenRow
 from raycert.cases.vectors import dot
 from raycert.oracle.certify.grading import grade
-from raycert.oracle.explain.casepage import Response, case_page
-from raycert.oracle.explain.casepicture import AnswerLine, closeups, lists, numbers, wholes
+from raycert.oracle.explain.casepage import (
+    AnswerLine,
+    Response,
+    case_page,
+    closeups,
+    drawable,
+    lists,
+    wholes,
+)
 from raycert.oracle.explain.derive import Derivation, as_given, derive, given
 from raycert.oracle.reports.section import views
 from shared.browser import probed
@@ -112,12 +119,12 @@ def test_a_ray_a_long_way_off_looks_the_same_across() -> None:
 def test_each_end_has_a_close_look_at_which_an_ulp_is_seen() -> None:
     derivation = derived()
     [(enter, leave)] = derivation.row.expected
-    said = AnswerLine("off", numbers(((enter - 2**-51, leave + 2**-40),)))
+    said = AnswerLine("off", drawable(((enter - 2**-51, leave + 2**-40),)))
     _, close = drawings(derivation, said)
     assert close.count("<svg") == 2
     assert close.count('class="unit"') >= 10
     assert "ulps \u2192" in close
-    far = AnswerLine("far", numbers(((enter, 1e300),)))
+    far = AnswerLine("far", drawable(((enter, 1e300),)))
     assert "end at +1e300 ulps \u2192" in drawings(derivation, far)[1]
 
 
@@ -127,7 +134,7 @@ def test_a_planted_ulp_is_seen_at_its_place() -> None:
     [(enter, leave)] = derivation.row.expected
 
     def begins(steps: int) -> float:
-        said = AnswerLine("off", numbers(((enter + steps * 2**-51, leave),)))
+        said = AnswerLine("off", drawable(((enter + steps * 2**-51, leave),)))
         first = drawings(derivation, said)[1].partition("</svg>")[0]
         [x] = re.findall(r'<rect x="([\d.]+)"[^>]*class="said"', first)
         return float(x)
@@ -155,7 +162,7 @@ def test_any_answer_is_drawn(pairs: tuple[tuple[float, float], ...]) -> None:
     derivation = derived()
     one = asked(derivation.row, Reply("", intervals=pairs), Hello(name="odd"))
     assert "<bdi>trace</bdi>" in case_page(derivation, [one], "again")
-    drawn = "".join(drawings(derivation, AnswerLine("odd", numbers(pairs))))
+    drawn = "".join(drawings(derivation, AnswerLine("odd", drawable(pairs))))
     assert not re.search(r'="-?(nan|inf)"', drawn)
 
 

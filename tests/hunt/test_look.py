@@ -10,7 +10,7 @@ from raycert.cases.numbers import Probe
 from raycert.cases.protocol import Hello, Reply
 from raycert.oracle.certify.grading import grade
 from raycert.oracle.client.process import Failure
-from raycert.oracle.hunt.look import RIGHT, Criterion, Looker
+from raycert.oracle.hunt.look import Criterion, Looker, Observation
 from raycert.oracle.zoo.inhabitants import BY_NAME
 from raycert.oracle.zoo.matrix import Outcome
 from raycert.oracle.zoo.tracer import BASE
@@ -98,4 +98,4 @@ def test_only_declared_and_wanted_types_are_asked():
 
 
 def test_right_is_cheap_and_costs_no_k():
-    assert Looker(HELLO, Criterion())(BALL, Reply("", intervals=((2.0, 4.0),))) == RIGHT
+    assert Looker(HELLO, Criterion())(BALL, Reply("", intervals=((2.0, 4.0),))) == Observation()

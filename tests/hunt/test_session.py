@@ -10,7 +10,7 @@ from raycert.cases.protocol import Reply
 from raycert.oracle.client.dialogue import Command, Limits, Unusable
 from raycert.oracle.client.inprocess import InProcess
 from raycert.oracle.client.process import Failure
-from raycert.oracle.hunt.session import Clock, Session, TimeUp
+from raycert.oracle.hunt.unit import Clock, Session, TimeUp
 
 BALL = Sphere((0, 0, 0), 1)
 PROBES = [Probe(BALL, Ray((float(x), 0, 0), (1, 0, 0))) for x in (-3, 7, -2, 5, 7, -4)]

@@ -4,7 +4,7 @@ from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, Difference, HalfSpace, Ray, Sphere, Union, leaves
 from raycert.cases.numbers import Probe, numbers
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.hunt.shrink import Shrinker, cost, number_cost
+from raycert.oracle.hunt.moves import Shrinker, cost, number_cost
 
 FAR = Ray((0.1, -0.7, 12.3), (0.3, 0.21, -1.77))
 BALL = Sphere((0.7, -0.3, 1.9), 1.234)

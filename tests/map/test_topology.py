@@ -17,7 +17,7 @@ from raycert.cases.model import (
 )
 from raycert.cases.strategies import leaves, rays
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.map.topology import KINDS, Kind, between, topology
+from raycert.oracle.map.sampling import KINDS, Kind, between, topology
 
 ROD = Cylinder((0, 0, 0), (0, 0, 2), 1)
 UP, DOWN = 1 + 2.0**-52, 1 - 2.0**-53

@@ -27,9 +27,9 @@ from raycert.oracle.client.inprocess import InProcess
 from raycert.oracle.hunt.executors import Here
 from raycert.oracle.hunt.keep import case
 from raycert.oracle.hunt.look import Criterion, Looker
+from raycert.oracle.hunt.moves import cost
 from raycert.oracle.hunt.pursuit import work
 from raycert.oracle.hunt.search import Budget, Finding, hunt
-from raycert.oracle.hunt.shrink import cost
 from raycert.oracle.hunt.unit import Job
 from raycert.oracle.zoo.fault import Fault
 from raycert.oracle.zoo.inhabitants import BY_NAME, FAULTS
