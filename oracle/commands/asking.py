@@ -7,20 +7,22 @@ format; which of them are not exact is noted.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, TypeVar
+from fractions import Fraction
+from math import isfinite
+from typing import Any, TypeVar
 
 import click
 
+from raycert.cases.formats import FORMATS, Format
+from raycert.cases.forms import Json, read_ray, read_solid
+from raycert.cases.model import Refused
+from raycert.cases.numbers import Probe
+from raycert.cases.protocol import BadLine, decode
+from raycert.cases.row import GoldenRow
 from raycert.oracle.commands.options import BadInput, find, golden_option, precision_option, read
-
-if TYPE_CHECKING:
-    from fractions import Fraction
-
-    from raycert.cases.formats import Format
-    from raycert.cases.forms import Json
-    from raycert.cases.numbers import Probe
-    from raycert.cases.row import GoldenRow
-    from raycert.oracle.explain.wording import Fact
+from raycert.oracle.exact.rounding import enclose
+from raycert.oracle.exact.surd import fraction
+from raycert.oracle.explain.wording import Fact, about, dyadic
 
 SHAPES = {
     "cylinder": ("p", "q", "radius"),
@@ -74,8 +76,6 @@ def chosen(options: dict[str, Any], rounded: list[Fact]) -> Probe | GoldenRow:
     What of the words is no number of the format is noted in `rounded`. Ends the command with exit
     status 2 where there is no such row or case.
     """
-    from raycert.cases.formats import FORMATS
-
     fmt = FORMATS[options["precision"]]
     if options["id"]:
         return find(read(options["precision"], options["golden"]), options["id"])
@@ -89,11 +89,6 @@ def from_json(data: bytes, fmt: Format, option: str) -> Probe:
 
     Ends the command with exit status 2 where it is none; `option` names it in the message.
     """
-    from raycert.cases.forms import read_ray, read_solid
-    from raycert.cases.model import Refused
-    from raycert.cases.numbers import Probe
-    from raycert.cases.protocol import BadLine, decode
-
     try:
         form = decode(data)
         for name in ("solid", "ray"):
@@ -120,10 +115,6 @@ def _spelling(ray: object) -> Any:
 
 def _from_words(options: dict[str, Any], fmt: Format, rounded: list[Fact]) -> Probe:
     """Return the solid and the ray of the options; note in `rounded` each number not exact."""
-    from raycert.cases.forms import read_ray, read_solid
-    from raycert.cases.model import Refused
-    from raycert.cases.numbers import Probe
-
     shapes = [name for name in SHAPES if options[name]]
     if len(shapes) != 1 or not options["ray"]:
         raise click.UsageError("give one solid and its ray: --cylinder P Q R --ray U V")
@@ -141,8 +132,6 @@ def _from_words(options: dict[str, Any], fmt: Format, rounded: list[Fact]) -> Pr
 
 
 def _vector(word: str, path: str, fmt: Format, rounded: list[Fact]) -> list[float]:
-    from raycert.cases.model import Refused
-
     parts = word.split(",")
     if len(parts) != 3:
         raise Refused(path, f"is not three numbers x,y,z without blanks: {word!r:.40}")
@@ -151,14 +140,6 @@ def _vector(word: str, path: str, fmt: Format, rounded: list[Fact]) -> list[floa
 
 def _number(text: str, path: str, fmt: Format, rounded: list[Fact]) -> float:
     """Return the number of the format nearest to a text; note it in `rounded` if it is another."""
-    from fractions import Fraction
-    from math import isfinite
-
-    from raycert.cases.model import Refused
-    from raycert.oracle.exact.rounding import enclose
-    from raycert.oracle.exact.surd import fraction
-    from raycert.oracle.explain.wording import Fact, about, dyadic
-
     try:
         number = float.fromhex(text) if "x" in text.lower() else float(text)
     except (ValueError, OverflowError):
@@ -178,8 +159,6 @@ def _number(text: str, path: str, fmt: Format, rounded: list[Fact]) -> float:
 
 def _exactly(text: str) -> Fraction:
     """Return what a decimal or a hex float spells, whose size is that of a binary64 number."""
-    from fractions import Fraction
-
     text = text.strip().lower().replace("_", "")
     if "x" not in text:
         return Fraction(text)

@@ -2,17 +2,25 @@
 
 from __future__ import annotations
 
+import json
+import shlex
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from rich.console import Console
 
+from raycert.cases.formats import FORMATS
+from raycert.cases.forms import write_ray, write_solid
+from raycert.cases.row import GoldenRow
 from raycert.oracle.commands.asking import case_options, chosen, count_given
-from raycert.oracle.commands.options import check_writable, stop, write_text
+from raycert.oracle.commands.options import aim, check_writable, stop, write_text
+from raycert.oracle.explain.console import show, show_proofs
+from raycert.oracle.explain.derive import Derivation, as_given, derive, given, to_json
+from raycert.oracle.explain.wording import Fact, Passage
 
 if TYPE_CHECKING:
-    from raycert.oracle.explain.derive import Derivation
-    from raycert.oracle.explain.wording import Fact
     from raycert.oracle.witness.proofs import Statement
 
 EXAMPLES = """\b
@@ -93,13 +101,6 @@ def explain(form: str, symbolic: bool, full: bool, **options: Any) -> None:
 
 
 def _derivation(options: dict[str, Any]) -> Derivation:
-    from dataclasses import replace
-
-    from raycert.cases.formats import FORMATS
-    from raycert.cases.row import GoldenRow
-    from raycert.oracle.explain.derive import as_given, derive, given
-    from raycert.oracle.explain.wording import Passage
-
     fmt = FORMATS[options["precision"]]
     rounded: list[Fact] = []
     case = chosen(options, rounded)
@@ -124,8 +125,6 @@ def _proofs() -> list[Statement]:
         load("symbols")
     except Missing as missing:
         stop(str(missing))
-    from rich.console import Console
-
     from raycert.oracle.witness.proofs import derivation
 
     with Console(stderr=True).status("proving with SymPy"):
@@ -133,9 +132,6 @@ def _proofs() -> list[Statement]:
 
 
 def _write(file: str, derivation: Derivation, options: dict[str, Any]) -> None:
-    import shlex
-
-    from raycert.oracle.commands.options import aim
     from raycert.oracle.explain.casepage import ask, case_page
 
     row, fmt = derivation.row, derivation.format
@@ -150,11 +146,6 @@ def _write(file: str, derivation: Derivation, options: dict[str, Any]) -> None:
 
 def _repeat(derivation: Derivation, options: dict[str, Any]) -> str:
     """Return the command line that makes the page again, from anywhere if the case is no row."""
-    import json
-    import shlex
-
-    from raycert.cases.forms import write_ray, write_solid
-
     row, id, words = derivation.row, options["id"], ["raycert", "explain"]
     case = {"solid": write_solid(row.solid), "ray": write_ray(row.ray)}
     words += [id] if id else ["--json", "-"]
@@ -168,10 +159,6 @@ def _repeat(derivation: Derivation, options: dict[str, Any]) -> str:
 
 
 def _print(derivation: Derivation | None, statements: list[Statement] | None, full: bool) -> None:
-    from rich.console import Console
-
-    from raycert.oracle.explain.console import show, show_proofs
-
     console = Console()
     if statements is not None:
         show_proofs(statements, console)
@@ -182,10 +169,6 @@ def _print(derivation: Derivation | None, statements: list[Statement] | None, fu
 
 
 def _print_json(derivation: Derivation | None, statements: list[Statement] | None) -> None:
-    import json
-
-    from raycert.oracle.explain.derive import to_json
-
     form: dict[str, Any] = {}
     if statements is not None:
         form["symbolic"] = [

@@ -6,10 +6,15 @@ import shlex
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from json import dumps
+from typing import Any
 
 import click
 
+from raycert.cases.corpus import GOLDEN, MANIFEST, BadCorpus, read_manifest
+from raycert.cases.model import SOLIDS
+from raycert.oracle.client.dialogue import Target, Unusable
 from raycert.oracle.commands.options import (
     FOLDER,
     TARGETS,
@@ -24,11 +29,16 @@ from raycert.oracle.commands.options import (
     spelled,
     stop,
 )
-
-if TYPE_CHECKING:
-    from raycert.oracle.client.dialogue import Target
-    from raycert.oracle.hunt.search import Finding, Hunt
-    from raycert.oracle.hunt.unit import Job
+from raycert.oracle.corpus.golden import Contradiction, show
+from raycert.oracle.exact.trace import trace
+from raycert.oracle.hunt import keep
+from raycert.oracle.hunt.executors import Cluster, Executor, Here, Lost, Processes
+from raycert.oracle.hunt.keep import answer, case
+from raycert.oracle.hunt.look import Criterion
+from raycert.oracle.hunt.pursuit import work
+from raycert.oracle.hunt.search import Budget, Finding, Hunt
+from raycert.oracle.hunt.search import hunt as run
+from raycert.oracle.hunt.unit import Job
 
 SECONDS = 60.0
 
@@ -94,8 +104,6 @@ def hunt(target: tuple[str, ...], **options: Any) -> None:
 
 
 def _check(options: dict[str, Any]) -> None:
-    from raycert.cases.corpus import MANIFEST, BadCorpus, read_manifest
-
     if options["cases"] and options["seconds"]:
         raise click.UsageError("--time and --cases exclude one another")
     if options["scheduler"] and options["workers"] > 1:
@@ -114,11 +122,6 @@ def _check(options: dict[str, Any]) -> None:
 
 
 def _job(target: Target, options: dict[str, Any]) -> Job:
-    from raycert.cases.corpus import GOLDEN
-    from raycert.cases.model import SOLIDS
-    from raycert.oracle.hunt.look import Criterion
-    from raycert.oracle.hunt.unit import Job
-
     try:
         import hypothesis  # noqa: F401
     except ImportError:
@@ -135,14 +138,6 @@ def _job(target: Target, options: dict[str, Any]) -> Job:
 
 
 def _hunt(job: Job, options: dict[str, Any]) -> Hunt:
-    from functools import partial
-
-    from raycert.oracle.client.dialogue import Unusable
-    from raycert.oracle.hunt.executors import Cluster, Executor, Here, Lost, Processes
-    from raycert.oracle.hunt.pursuit import work
-    from raycert.oracle.hunt.search import Budget
-    from raycert.oracle.hunt.search import hunt as run
-
     seconds = None if options["cases"] else options["seconds"] or SECONDS
     budget, work_here = Budget(options["cases"], seconds, options["most"]), partial(work, job)
     try:
@@ -191,9 +186,6 @@ def _written(
     found: Hunt, job: Job, target: tuple[str, ...], options: dict[str, Any]
 ) -> dict[str, Finding]:
     """Write the findings, and return them by their ids."""
-    from raycert.oracle.corpus.golden import Contradiction
-    from raycert.oracle.hunt import keep
-
     findings = keep.named(found.findings.values(), job.seed)
     names = ("level", "convention", "far", "solids", "cases", "seconds", "seed", "seeded")
     asked = {"target": list(spelled(target)), **{name: options[name] for name in names}}
@@ -214,12 +206,6 @@ def _written(
 def _print(
     found: Hunt, findings: dict[str, Finding], target: tuple[str, ...], options: dict[str, Any]
 ) -> None:
-    from json import dumps
-
-    from raycert.oracle.corpus.golden import show
-    from raycert.oracle.exact.trace import trace
-    from raycert.oracle.hunt.keep import answer, case
-
     for id, finding in findings.items():
         click.echo(f"{id}  {finding.flaw.level} fails: {finding.symptom}")
         click.echo(f"  case     {dumps(case(finding.probe))}")

@@ -6,16 +6,21 @@ import sys
 from collections import Counter
 from collections.abc import Collection, Iterable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from shutil import get_terminal_size
+from textwrap import wrap
+from typing import Any
 
 import click
+from rich.console import Console
 
+from raycert.cases.corpus import Corpus, encode_rows
+from raycert.cases.flags import FLAGS
 from raycert.cases.levels import LEVELS, TIERS
+from raycert.cases.model import SOLIDS, type_of
+from raycert.cases.protocol import TOUCHES
+from raycert.cases.row import GoldenRow
+from raycert.cases.table import HALF_SPACE, PROBLEM_1, PROBLEM_2, PROBLEM_3
 from raycert.oracle.commands.options import find, golden_option, precision_option, read, unknown
-
-if TYPE_CHECKING:
-    from raycert.cases.corpus import Corpus
-    from raycert.cases.row import GoldenRow
 
 FIELDS = ("family", "tier", "flag", "row", "solid", "source", "touch", "decisive")
 
@@ -78,8 +83,6 @@ def list_cases(precision: str, golden: Path | None, **options: Any) -> None:
 
 
 def values(row: GoldenRow, field: str) -> tuple[str, ...]:
-    from raycert.cases.model import type_of
-
     match field:
         case "flag":
             return row.flags
@@ -100,11 +103,6 @@ def select(corpus: Corpus, **options: Any) -> list[GoldenRow]:
     Of `families`, `tiers` and `solids` a row has any, of `flags` and `rows` all. Ends the command
     at a name that no row of any corpus has.
     """
-    from raycert.cases.flags import FLAGS
-    from raycert.cases.model import SOLIDS
-    from raycert.cases.protocol import TOUCHES
-    from raycert.cases.table import HALF_SPACE, PROBLEM_1, PROBLEM_2, PROBLEM_3
-
     tables = (*PROBLEM_1, *PROBLEM_2, *PROBLEM_3, *HALF_SPACE)
     signs = {f"{pair[0]}{s}{pair[1]}" for pair in ("ac", "bd", "mn") for s in "<=>"}
     touches = (options["touch"],) if options.get("touch") else ()
@@ -137,8 +135,6 @@ def select(corpus: Corpus, **options: Any) -> list[GoldenRow]:
 
 
 def _screen() -> int | None:
-    from shutil import get_terminal_size
-
     return get_terminal_size().columns if sys.stdout.isatty() else None
 
 
@@ -165,8 +161,6 @@ def _print_counts(rows: list[GoldenRow], field: str) -> None:
 
 def _print_families(rows: list[GoldenRow]) -> None:
     """Print each family with its rows per tier and its reason, where the tool knows the family."""
-    from textwrap import wrap
-
     from raycert.cases.families.catalog import FAMILIES
 
     reasons = {family.name: family.reason for family in FAMILIES}
@@ -184,10 +178,6 @@ def _print_families(rows: list[GoldenRow]) -> None:
 
 
 def _print_legend() -> None:
-    from textwrap import wrap
-
-    from raycert.cases.flags import FLAGS
-
     width = _screen() or 100
     for flag in FLAGS.values():
         click.secho(flag.name, bold=True)
@@ -207,12 +197,8 @@ def show(ids: tuple[str, ...], raw: bool, full: bool, precision: str, golden: Pa
     corpus = read(precision, golden)
     rows = [find(corpus, id) for id in ids]
     if raw:
-        from raycert.cases.corpus import encode_rows
-
         click.echo(encode_rows(rows, corpus.format), nl=False)
         return
-    from rich.console import Console
-
     from raycert.oracle.explain.console import show_rows
 
     show_rows(rows, corpus.format, Console(), full)

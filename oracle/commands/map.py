@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Callable
+from fractions import Fraction
+from json import dumps
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from raycert.cases.formats import FORMATS
+from raycert.cases.model import Refused
+from raycert.oracle.client.dialogue import Unusable
 from raycert.oracle.commands.asking import SHAPES, case_options, chosen, count_given
 from raycert.oracle.commands.options import (
     BadInput,
@@ -19,10 +25,9 @@ from raycert.oracle.commands.options import (
     stop,
     write_text,
 )
-
-if TYPE_CHECKING:
-    from raycert.oracle.map.raster import Raster
-    from raycert.oracle.map.sampling import Map
+from raycert.oracle.map.legend import summary, to_csv, to_json
+from raycert.oracle.map.raster import Inputs, Raster
+from raycert.oracle.map.sampling import Map, sample
 
 PICTURES, DATA = (".png", ".svg"), (".json", ".csv")
 SHOWS = ("exact", "answer", "k", "ulps", "disagreement")
@@ -107,8 +112,6 @@ def draw_map(**options: Any) -> None:
         raise click.ClickException("interrupted before a cell was done; nothing was written")
     for write in writers:
         write(found, _title(options))
-    from raycert.oracle.map.legend import summary
-
     click.echo("\n".join(summary(found)))
     click.echo(f"wrote {', '.join(map(str, options['outs']))}")
 
@@ -127,22 +130,12 @@ def _writer(path: Path) -> Callable[[Map, str], None]:
             need = 'pictures need matplotlib: pip install "raycert[plots]"'
             raise BadInput(f"{need} ({error})") from None
         return lambda found, title: save(found, title, path)
-    from json import dumps
-
-    from raycert.oracle.map.legend import to_csv, to_json
-
     if suffix == ".csv":
         return lambda found, _: write_text(path, to_csv(found))
     return lambda found, _: write_text(path, dumps(to_json(found), indent=1) + "\n")
 
 
 def _raster(options: dict[str, Any]) -> Raster:
-    from fractions import Fraction
-
-    from raycert.cases.formats import FORMATS
-    from raycert.cases.model import Refused
-    from raycert.oracle.map.raster import Inputs, Raster
-
     fmt, cells = FORMATS[options["precision"]], options["cells"]
     usual = str(cells // 2) if options["unit"] == "ulps" else "1"
     case = chosen(options, [])
@@ -159,11 +152,6 @@ def _raster(options: dict[str, Any]) -> Raster:
 
 
 def _sampled(raster: Raster, show: Any, options: dict[str, Any]) -> Map:
-    import shlex
-
-    from raycert.oracle.client.dialogue import Unusable
-    from raycert.oracle.map.sampling import sample
-
     target = None
     if show != "exact":
         try:

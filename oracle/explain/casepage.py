@@ -26,7 +26,7 @@ from raycert.oracle.client.dialogue import Limits, Question, Target, Unusable
 from raycert.oracle.client.replay import greet, run
 from raycert.oracle.explain.console import case_lines
 from raycert.oracle.explain.derive import Derivation
-from raycert.oracle.explain.wording import Fact, Note, Passage, Table, numbers, shorten
+from raycert.oracle.explain.wording import Fact, Note, Table, numbers, shorten
 from raycert.oracle.judge.answer import First, YesNo
 from raycert.oracle.reports.numberline import (
     GUTTER,
@@ -129,7 +129,10 @@ def case_page(derivation: Derivation, answers: Sequence[Response], repeat: str) 
         wholes=wholes(row, exact, said),
         closeups=closeups(row, exact, said, fmt),
         answers=[_answer(*named, derivation) for named in zip(answers, names, strict=True)],
-        steps=[_step(step) for step in derivation.steps],
+        steps=[
+            {"heading": clean(step.heading), "lines": [_line(line) for line in step.lines]}
+            for step in derivation.steps
+        ],
         repeat=clean(repeat, LONG),
     )
 
@@ -151,15 +154,10 @@ def _drawn(one: Response, name: str) -> AnswerLine:
 
 def _answer(one: Response, name: str, derivation: Derivation) -> Json:
     """Return an answer as a row of the table: its words, its errors, the levels it holds."""
-    graded = one.grade
-    form: Json = {
-        "label": clean(name, 30),
-        "name": clean(one.name, 60) if one.name != one.word else "",
-        "reason": clean(one.reason),
-        "levels": [],
-    }
+    graded, known_as = one.grade, clean(one.name, 60) if one.name != one.word else ""
+    form: Json = {"label": clean(name, 30), "name": known_as, "reason": clean(one.reason)}
     if graded is None:
-        return form | {"said": "", "errors": []}
+        return form | {"said": "", "errors": [], "levels": []}
     match graded.said:
         case None:
             said = "no answer"
@@ -176,28 +174,16 @@ def _answer(one: Response, name: str, derivation: Derivation) -> Json:
         for level in LEVELS
     ]
     first = next((f"{level}: {failed[level]}" for level in LEVELS if level in failed), "")
-    return form | {
-        "said": clean(said, 400),
-        "errors": errors,
-        "levels": levels,
-        "reason": clean(first),
-    }
+    answer = {"said": clean(said, 400), "errors": errors, "levels": levels}
+    return form | answer | {"reason": clean(first)}
 
 
 def _names(words: Sequence[str]) -> list[str]:
-    """Return short names of implementations, numbered where they look the same beside a line."""
-    tails = [_tail(word) for word in words]
+    """Return the ends of the words, `trace` of `my.code:trace`, numbered where they look alike."""
+    tails = [re.split("[:/]", word.strip().rstrip("/"))[-1] for word in words]
     if len({clean(tail, NAME) for tail in tails}) == len(tails):
         return tails
     return [f"{i} {tail}" for i, tail in enumerate(tails, 1)]
-
-
-def _tail(word: str) -> str:
-    return re.split(r"[:/]", word.strip().rstrip("/"))[-1]
-
-
-def _step(passage: Passage) -> Json:
-    return {"heading": clean(passage.heading), "lines": [_line(line) for line in passage.lines]}
 
 
 def _line(line: Fact | Table | Note) -> Json:
@@ -268,29 +254,30 @@ def _end(end: End) -> Fraction | float:
 
 def wholes(row: GoldenRow, all_lists: CaseLists, said: Sequence[AnswerLine]) -> Drawn:
     """Return the views of a case; under the first of them are the intervals over t."""
-    ends = all_lists.finite(all_lists.exact)
-    found = views(row.solid, row.ray, ends)
-    drawings = [_lined(next(iter(found), None), all_lists, said)]
-    return drawings + [_alone(view, all_lists) for view in found[1:]]
+    found = views(row.solid, row.ray, all_lists.finite(all_lists.exact))
+    shown = (*known(all_lists), *(one.lane for one in said))
+    first = _view(found[0] if found else None, all_lists, shown)
+    return [first, *(_view(view, all_lists, ()) for view in found[1:])]
 
 
-def _lined(view: View | None, all_lists: CaseLists, said: Sequence[AnswerLine]) -> tuple[str, str]:
-    """Return a view over the intervals, both on one scale of t; without one the intervals."""
+def _view(view: View | None, all_lists: CaseLists, shown: Sequence[Lane]) -> tuple[str, str]:
+    """Return a view with the lines shown below it, on one scale of t; without a view the lines."""
     still = view is not None and view.still
     axis = whole(all_lists) if view is None or still else axis_of(view.section)
-    top = 4.0 if view is None else TALL + GAP
+    top = 4.0 if view is None else TALL + GAP * bool(shown)
     parts: list[Element] = []
     if view is not None:
-        parts += drawn(view.section, axis_of(view.section), view.still)
+        parts += drawn(view.section, axis_of(view.section), still)
     if view is not None and not still:
-        parts += guides(all_lists.finite(all_lists.exact), axis, top + ROW)
+        parts += guides(all_lists.finite(all_lists.exact), axis, top + ROW * bool(shown))
         parts += _inside(view.section, axis, all_lists.exact)
-    shown = (*known(all_lists), *(one.lane for one in said))
+    name = "The intervals" if view is None else view.name
+    if still and not shown:
+        return name, drawing(TALL + 4, name, *parts)
     foot = top + len(shown) * ROW
     scale, offset = _scale(axis, foot)
-    parts += [*lanes(shown, axis, top), *scale]
-    caption = ("The intervals" if view is None else view.name) + f", over t{offset}"
-    return caption, drawing(foot + 20, caption, *parts)
+    caption = f"{name}, over t{offset}" if shown or offset else name
+    return caption, drawing(foot + 20, caption, *parts, *lanes(shown, axis, top), *scale)
 
 
 def _scale(axis: Ruler, foot: float) -> tuple[list[Element], str]:
@@ -316,19 +303,6 @@ def _inside(scene: Slice, axis: Ruler, exact: Pairs) -> Iterator[Element]:
             yield el("line", x1=a, x2=b, y1=y, y2=y, kind="inside")
         elif axis.shows(enter):
             yield el("circle", cx=a, cy=y, r=4, kind="exact")
-
-
-def _alone(view: View, all_lists: CaseLists) -> tuple[str, str]:
-    """Return a view with a scale of its own, the exact ends on it."""
-    axis = axis_of(view.section)
-    parts = list(drawn(view.section, axis, view.still))
-    if view.still:
-        return view.name, drawing(TALL + 4, view.name, *parts)
-    scale, offset = _scale(axis, TALL)
-    parts += guides(all_lists.finite(all_lists.exact), axis, TALL)
-    parts += [*_inside(view.section, axis, all_lists.exact), *scale]
-    caption = view.name + (f", over t{offset}" if offset else "")
-    return caption, drawing(TALL + 20, caption, *parts)
 
 
 def closeups(

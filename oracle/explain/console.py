@@ -14,7 +14,7 @@ from rich.console import Console
 from rich.text import Text
 
 from raycert.cases.formats import Format
-from raycert.cases.model import FIELDS, Ray, Solid, Tree, Vector, type_of
+from raycert.cases.model import FIELDS, Solid, Tree, Vector, type_of
 from raycert.cases.row import GoldenRow
 from raycert.oracle.explain.derive import Derivation, row_passages
 from raycert.oracle.explain.wording import Demand, Fact, Note, Passage, Table, shorten, shortest
@@ -67,18 +67,13 @@ def _case(
 def case_lines(row: GoldenRow, fmt: Format, width: int) -> Iterator[Text]:
     if row.why:
         flags = f", {' '.join(row.flags)}" if row.flags else ""
-        yield Text(row.id, "bold")
-        yield Text(row.why)
-        yield Text(f"{row.tier}, {fmt.name}, source {row.source}{flags}", ASIDE)
-        yield Text()
-    named = [*_solid_fields(row.solid, "", fmt), ("ray", _ray(row.ray, fmt))]
+        aside = f"{row.tier}, {fmt.name}, source {row.source}{flags}"
+        yield from (Text(row.id, "bold"), Text(row.why), Text(aside, ASIDE), Text())
+    ray = [f"u {_vector(row.ray.origin, fmt)}", f"v {_vector(row.ray.direction, fmt)}"]
+    named = [*_solid_fields(row.solid, "", fmt), ("ray", ray)]
     size = max(len(name) for name, _ in named)
     for name, fields in named:
         yield layout(name.ljust(size), [(text, "") for text in fields], width, 0)
-
-
-def _ray(ray: Ray, fmt: Format) -> list[str]:
-    return [f"u {_vector(ray.origin, fmt)}", f"v {_vector(ray.direction, fmt)}"]
 
 
 def _solid_fields(solid: Solid, path: str, fmt: Format) -> Iterator[tuple[str, list[str]]]:
@@ -170,10 +165,8 @@ def table_lines(table: Table, width: int) -> Iterator[Text]:
 
 
 def _cell(cell: Demand | None) -> str:
-    if cell is None:
-        return ""
-    word = {None: "", True: "yes", False: "no"}[cell.holds]
-    return f"{cell.relation:>4} {word}"
+    words = {None: "", True: "yes", False: "no"}
+    return "" if cell is None else f"{cell.relation:>4} {words[cell.holds]}"
 
 
 def proof_lines(statements: Sequence[Statement], width: int) -> Iterator[Text]:
@@ -186,16 +179,14 @@ def proof_lines(statements: Sequence[Statement], width: int) -> Iterator[Text]:
     for statement in statements:
         if (opened := _heading(statement.title)) not in ("", heading):
             heading = opened
-            yield Text()
-            yield Text(heading, "bold")
+            yield from (Text(), Text(heading, "bold"))
         word, style = OUTCOMES[statement.proved]
         title = Text(" " * MARGIN + statement.title, "cyan")
         title.pad_right(max(width - len(word) - len(title), 2))
         yield title.append(word, style)
         yield from _wrapped(unbroken(statement.text), width, INDENT)
-    yield Text()
     count = sum(statement.proved for statement in statements)
-    yield Text(f"{count} of {len(statements)} statements proved by SymPy", "bold")
+    yield from (Text(), Text(f"{count} of {len(statements)} statements proved by SymPy", "bold"))
 
 
 def _heading(title: str) -> str:

@@ -29,7 +29,6 @@ from raycert.cases.model import (
     Difference,
     HalfSpace,
     InfiniteCylinder,
-    Intersection,
     Leaf,
     Ray,
     Slab,
@@ -133,15 +132,10 @@ def _lists(solid: Solid, grid: Grid, path: str, facts: list[Fact | Note]) -> Int
     return found
 
 
-def _words(tree: Union | Intersection | Difference, paths: list[str]) -> str:
-    match tree:
-        case Union():
-            return f"{' or '.join(paths)}"
-        case Intersection():
-            return f"{' and '.join(paths)}"
-        case Difference():
-            rest = f", less {' and '.join(paths[1:])}" if paths[1:] else ""
-            return f"{paths[0]}{rest}"
+def _words(tree: Tree, paths: list[str]) -> str:
+    if isinstance(tree, Difference):
+        return paths[0] + (f", less {' and '.join(paths[1:])}" if paths[1:] else "")
+    return (" or " if isinstance(tree, Union) else " and ").join(paths)
 
 
 def _answers(row: GoldenRow, judge: Judge) -> Iterator[Passage]:
@@ -169,13 +163,8 @@ def end_facts(name: str, end: End, t: Surd, judge: Judge) -> tuple[Fact, ...]:
     if t.sign() == 0:
         return (exact, place)
     digits = () if t.rational() and len(exact.value) < 12 else (Fact("  digits", tidy(end.digits)),)
-    return (
-        exact,
-        *digits,
-        *enclosing(end.down, end.up, end.nearest, judge.format),
-        place,
-        _condition(t, judge),
-    )
+    bounds = enclosing(end.down, end.up, end.nearest, judge.format)
+    return (exact, *digits, *bounds, place, _condition(t, judge))
 
 
 def _condition(t: Surd, judge: Judge) -> Fact:
@@ -195,35 +184,29 @@ def _log2(v: Surd) -> float:
 
 def judgement(row: GoldenRow, judge: Judge) -> Passage:
     """Return what is measured here: two answers, the levels decided, the lists that accept."""
-    return Passage(
-        "Measured",
-        (
-            *_measured("rounded", judge.expected, judge, "each exact end to nearest"),
-            *_measured("textbook", textbook(judge.solid, judge.ray, judge.format), judge),
-            Fact("decisive for", ", ".join(row.decisive) or "no level"),
-            *accepting("sound", row.accept["sound"], judge.format),
-            *accepting("stable", row.accept["stable"], judge.format),
-        ),
+    lines = (
+        *_measured("rounded", judge.expected, judge, "each exact end to nearest"),
+        *_measured("textbook", textbook(judge.solid, judge.ray, judge.format), judge),
+        Fact("decisive for", ", ".join(row.decisive) or "no level"),
+        *accepting("sound", row.accept["sound"], judge.format),
+        *accepting("stable", row.accept["stable"], judge.format),
     )
+    return Passage("Measured", lines)
 
 
 def _measured(name: str, answer: Pairs, judge: Judge, note: str = "") -> Iterator[Fact]:
     """Yield an answer, its forward and backward errors, and the levels it holds here."""
     yield Fact(name, numbers(answer, judge.format), note=note)
-    wrong = judge.malformed(answer)
-    if wrong:
+    if wrong := judge.malformed(answer):
         yield Fact("", f"not well-formed: {wrong}")
         return
     forward = judge.forward_error(answer)
-    error = "another number of pairs" if len(answer) != len(judge.expected) else _ulps(forward)
+    error = "infinite" if isinf(forward) else f"{forward:.3g} ulps"
+    error = error if len(answer) == len(judge.expected) else "another number of pairs"
     k = [_k(judge.backward_error(answer, measure)) for measure in ("strict", "squared")]
     yield Fact("", f"error {error}; backward error k {k[0]} strict, {k[1]} squared")
     held = [level for level in LEVELS if judge.holds(level, answer)]
     yield Fact("", f"holds {', '.join(held)}" if held else "holds no level")
-
-
-def _ulps(error: float) -> str:
-    return "infinite" if isinf(error) else f"{error:.3g} ulps"
 
 
 def _k(k: float) -> str:
@@ -292,22 +275,18 @@ def exact(x: Vector) -> Exact:
 def leaf_steps(leaf: Leaf, ray: Ray) -> Iterator[Passage]:
     grid, decisions = Grid.of(leaf, ray), list[Decision]()
     solve_leaf(leaf, grid, "", decisions)
-    match leaf:
-        case HalfSpace():
-            yield _half_space(leaf, ray, grid, decisions[0])
-        case Sphere():
-            yield _sphere(leaf, ray, grid, decisions[0])
-        case Slab():
-            yield _axis(leaf, ray)
-            yield _slab(leaf, ray, grid, decisions[0])
-        case InfiniteCylinder():
-            yield _axis(leaf, ray)
+    if isinstance(leaf, HalfSpace):
+        yield _half_space(leaf, ray, grid, decisions[0])
+    elif isinstance(leaf, Sphere):
+        yield _sphere(leaf, ray, grid, decisions[0])
+    else:
+        yield _axis(leaf, ray)
+        if isinstance(leaf, InfiniteCylinder | Cylinder):
             yield _wall(leaf, ray, grid, decisions[0])
-        case Cylinder():
-            yield _axis(leaf, ray)
-            yield _wall(leaf, ray, grid, decisions[0])
-            yield _slab(leaf, ray, grid, decisions[1])
-            yield _both(leaf, grid, decisions)
+        if isinstance(leaf, Slab | Cylinder):
+            yield _slab(leaf, ray, grid, decisions[isinstance(leaf, Cylinder)])
+        if isinstance(leaf, Cylinder):
+            yield _both(leaf, grid, decisions[2])
 
 
 def _axis(leaf: Slab | InfiniteCylinder | Cylinder, ray: Ray) -> Passage:
@@ -391,13 +370,11 @@ def _curved(
         if t1 == t2:
             ends = (number("t1 = t2", t1, note="a double root: the ray is tangent"),)
     table = row_table(PROBLEM_1, names, signs | dict(decision.signs), decision.row)
-    known = ("{(t1, t2)}", "{(0, t2)}", "{(0, inf)}")
-    pairs = decision.row.pairs
-    pair = f"(a, b) = {pairs.strip('{}')}" if pairs in known else "no pair"
-    return Passage(heading, (*facts, *ends, table, _emits(decision.row, pair)))
+    return Passage(heading, (*facts, *ends, table, _emits(decision.row, "(a, b)")))
 
 
-def _emits(row: Row, pair: str) -> Note:
+def _emits(row: Row, name: str) -> Note:
+    pair = "no pair" if row.pairs == "{}" else f"{name} = {row.pairs.strip('{}')}"
     return Note(f"Row {row.name}, Problem {row.parts}: {pair}")
 
 
@@ -414,14 +391,8 @@ def _slab(leaf: Slab | Cylinder, ray: Ray, grid: Grid, decision: Decision) -> Pa
     )
     signs = plane_signs(*faces) | dict(decision.signs)
     table = row_table(PROBLEM_2, FLAT, signs, decision.row)
-    return Passage(
-        "Problem 2, the slab between the planes through p and q",
-        (*facts, table, _slab_pair(decision.row)),
-    )
-
-
-def _slab_pair(row: Row) -> Note:
-    return _emits(row, f"(c, d) = {row.pairs.strip('{}')}" if row.pairs != "{}" else "no pair")
+    heading = "Problem 2, the slab between the planes through p and q"
+    return Passage(heading, (*facts, table, _emits(decision.row, "(c, d)")))
 
 
 def _crossings(planes: tuple[tuple[str, str, Plane], ...], grid: Grid) -> Iterator[Fact | Note]:
@@ -446,17 +417,15 @@ def _half_space(leaf: HalfSpace, ray: Ray, grid: Grid, decision: Decision) -> Pa
     )
     signs = {"up": sign(face.c), "vn": sign(face.b)} | dict(decision.signs)
     table = row_table(HALF_SPACE, FLAT, signs, decision.row)
-    return Passage(
-        "Problem 2 (c), one plane: (x - p) . n <= 0", (*facts, table, _slab_pair(decision.row))
-    )
+    heading = "Problem 2 (c), one plane: (x - p) . n <= 0"
+    return Passage(heading, (*facts, table, _emits(decision.row, "(c, d)")))
 
 
-def _both(leaf: Cylinder, grid: Grid, decisions: list[Decision]) -> Passage:
+def _both(leaf: Cylinder, grid: Grid, last: Decision) -> Passage:
     """Problem 3: a ? c, b ? d, m ? n."""
     aside = list[Decision]()
     one = solve_leaf(InfiniteCylinder(leaf.p, leaf.q, leaf.radius), grid, "", aside)
     two = solve_leaf(Slab(leaf.p, leaf.q), grid, "", aside)
-    last = decisions[2]
     lines = [Fact("(a, b)", listed(one)), Fact("(c, d)", listed(two))]
     if one and two:
         signs = dict(last.signs)
@@ -469,4 +438,5 @@ def _both(leaf: Cylinder, grid: Grid, decisions: list[Decision]) -> Passage:
         ]
     table = row_table(PROBLEM_3, BOTH, dict(last.signs), last.row)
     pair = {"meet": "(m, n)", "apart": "no pair, as m > n"}.get(last.row.name, "no pair")
-    return Passage("Problem 3, in both", (*lines, table, _emits(last.row, pair)))
+    emits = Note(f"Row {last.row.name}, Problem {last.row.parts}: {pair}")
+    return Passage("Problem 3, in both", (*lines, table, emits))
