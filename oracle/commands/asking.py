@@ -20,8 +20,7 @@ from raycert.cases.numbers import Probe
 from raycert.cases.protocol import BadLine, decode
 from raycert.cases.row import GoldenRow
 from raycert.oracle.commands.options import BadInput, find, golden_option, precision_option, read
-from raycert.oracle.exact.rounding import enclose
-from raycert.oracle.exact.surd import fraction
+from raycert.oracle.exact.surd import enclose, fraction
 from raycert.oracle.explain.wording import Fact, about, dyadic
 
 SHAPES = {

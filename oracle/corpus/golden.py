@@ -18,8 +18,7 @@ from raycert.cases.row import End, GoldenRow, Span
 from raycert.oracle.exact.condition import condition
 from raycert.oracle.exact.faces import place, touch
 from raycert.oracle.exact.intervals import Interval, Intervals
-from raycert.oracle.exact.rounding import decimal, enclose
-from raycert.oracle.exact.surd import INFINITY, Surd, fraction
+from raycert.oracle.exact.surd import INFINITY, Surd, decimal, enclose, fraction
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.levels import MEASURES, Judge, decisive
 from raycert.oracle.witness.crosscheck import Query, check

@@ -38,8 +38,7 @@ from raycert.cases.vectors import dot, minus
 from raycert.oracle.exact.faces import on_faces
 from raycert.oracle.exact.grid import Grid, IntVector, normal
 from raycert.oracle.exact.intervals import Intervals
-from raycert.oracle.exact.rounding import exponent
-from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, fraction, sign_1
+from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, exponent, fraction, sign_1
 
 
 @dataclass(frozen=True, slots=True)

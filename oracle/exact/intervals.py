@@ -12,8 +12,7 @@ from functools import reduce
 
 from raycert.cases.accept import Numbers
 from raycert.cases.formats import Format
-from raycert.oracle.exact.rounding import nearest
-from raycert.oracle.exact.surd import INFINITY, ZERO, Surd
+from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, nearest
 
 Interval = tuple[Surd, Surd]
 Intervals = tuple[Interval, ...]

@@ -48,8 +48,7 @@ from raycert.oracle.exact.condition import kappa
 from raycert.oracle.exact.grid import Grid
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.leaf import Plane, Quadric, ball, caps, half_space, plane_signs, wall
-from raycert.oracle.exact.rounding import decimal
-from raycert.oracle.exact.surd import Surd, sign
+from raycert.oracle.exact.surd import Surd, decimal, sign
 from raycert.oracle.exact.trace import Decision, combine, solve_leaf
 from raycert.oracle.explain.wording import (
     Exact,

@@ -16,8 +16,7 @@ from raycert.cases.accept import Accept, Pairs
 from raycert.cases.formats import BINARY64, Format
 from raycert.cases.table import HOLDS, Row
 from raycert.oracle.exact.intervals import Intervals
-from raycert.oracle.exact.rounding import decimal
-from raycert.oracle.exact.surd import Surd, fraction
+from raycert.oracle.exact.surd import Surd, decimal, fraction
 
 RELATION = {-1: "< 0", 0: "= 0", 1: "> 0"}
 """The words for a sign."""

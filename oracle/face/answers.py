@@ -60,7 +60,7 @@ Ray(origin=(-2.0, 0.0, 0.0), direction=(1.0, 0.0, 0.0)))
         """Whether a number is in one of the intervals, or a pair is one of them."""
         if isinstance(t, tuple):
             return t in self.intervals
-        return any(enter <= t <= leave for enter, leave in self.intervals)  # type: ignore[operator]
+        return any(enter <= t <= leave for enter, leave in self.intervals)
 
     def __repr__(self) -> str:
         """Return what gives it back."""

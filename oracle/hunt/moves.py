@@ -60,8 +60,7 @@ from raycert.cases.numbers import (
     with_numbers,
 )
 from raycert.cases.vectors import along, dot, minus, plus, times
-from raycert.oracle.exact.rounding import nearest
-from raycert.oracle.exact.surd import Surd
+from raycert.oracle.exact.surd import Surd, nearest
 from raycert.oracle.exact.trace import trace
 
 T = TypeVar("T")

@@ -17,8 +17,7 @@ from raycert.cases.formats import BINARY64, Format
 from raycert.cases.levels import LEVELS, Level, Tier
 from raycert.cases.model import Intersection, Ray, Solid, Tree, leaves
 from raycert.oracle.exact.intervals import Interval, Intervals, contains, expected, meets
-from raycert.oracle.exact.rounding import enclose, nearest
-from raycert.oracle.exact.surd import INFINITY, Surd, dyadic, sign_1
+from raycert.oracle.exact.surd import INFINITY, Surd, dyadic, enclose, nearest, sign_1
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.moved import LAST_STEP, Measure, Movable, Step, moved_leaf
 

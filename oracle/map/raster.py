@@ -25,8 +25,7 @@ from raycert.cases.formats import BINARY64, Format
 from raycert.cases.forms import Json, read_ray, read_solid, write_ray, write_solid
 from raycert.cases.model import Ray, Refused, Solid
 from raycert.cases.numbers import Probe
-from raycert.oracle.exact.rounding import enclose
-from raycert.oracle.exact.surd import fraction
+from raycert.oracle.exact.surd import enclose, fraction
 
 Unit = Literal["ulps", "units", "relative"]
 UNITS: tuple[Unit, ...] = ("ulps", "units", "relative")

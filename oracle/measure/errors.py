@@ -17,8 +17,7 @@ from raycert.cases.formats import BINARY64
 from raycert.cases.model import Slab, leaves
 from raycert.oracle.exact.condition import kappa
 from raycert.oracle.exact.intervals import Intervals
-from raycert.oracle.exact.rounding import enclose
-from raycert.oracle.exact.surd import Surd
+from raycert.oracle.exact.surd import Surd, enclose
 from raycert.oracle.judge.levels import LIMIT, Judge, decisive
 from raycert.oracle.judge.moved import LAST_STEP, Measure, Step
 from raycert.oracle.measure.way import Answered, Case, Pairs

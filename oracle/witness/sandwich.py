@@ -16,8 +16,7 @@ from math import inf
 
 from raycert.cases.model import Difference, Intersection, Tree, Union
 from raycert.oracle.exact.intervals import Interval, Intervals
-from raycert.oracle.exact.rounding import decimal
-from raycert.oracle.exact.surd import INFINITY, ZERO, Surd
+from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, decimal
 from raycert.oracle.witness.testimony import Outcome
 
 NONE: Intervals = ()

@@ -12,8 +12,7 @@ from typing import Literal, TypeVar
 
 from raycert.cases.model import Ray, Solid
 from raycert.oracle.exact.intervals import Intervals
-from raycert.oracle.exact.rounding import decimal
-from raycert.oracle.exact.surd import Surd
+from raycert.oracle.exact.surd import Surd, decimal
 
 Outcome = Literal["agreed", "undecided", "disagreed"]
 OUTCOMES: tuple[Outcome, ...] = ("agreed", "undecided", "disagreed")

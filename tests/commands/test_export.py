@@ -26,7 +26,7 @@ from raycert.cases.model import (
 )
 from raycert.oracle.commands.export import COLUMNS, export, merged_ends
 from raycert.oracle.corpus.golden import write
-from raycert.oracle.exact.rounding import enclose
+from raycert.oracle.exact.surd import enclose
 from raycert.oracle.judge.levels import Judge
 from shared.corpus import golden as known
 

@@ -1,4 +1,4 @@
-"""`oracle.exact.rounding` against the definition of rounding, checked by squaring in fractions."""
+"""Roundings and decimals of surds against their definition, checked by squaring in fractions."""
 
 from __future__ import annotations
 
@@ -12,8 +12,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
-from raycert.oracle.exact.rounding import Rounded, decimal, enclose, exponent, floor_shifted
-from raycert.oracle.exact.surd import INFINITY, Surd, fraction
+from raycert.oracle.exact.surd import (
+    INFINITY,
+    Rounded,
+    Surd,
+    decimal,
+    enclose,
+    exponent,
+    floor_shifted,
+    fraction,
+)
 
 both = pytest.mark.parametrize("fmt", FORMATS.values(), ids=FORMATS)
 formats = st.sampled_from([BINARY64, BINARY32])

@@ -30,8 +30,7 @@ from raycert.cases.model import (
 )
 from raycert.cases.strategies import scenes as drawn
 from raycert.oracle.exact.intervals import contains
-from raycert.oracle.exact.rounding import enclose, nearest
-from raycert.oracle.exact.surd import Surd, dyadic
+from raycert.oracle.exact.surd import Surd, dyadic, enclose, nearest
 from raycert.oracle.judge.levels import LIMIT, MEASURES, Judge, is_convex
 from raycert.oracle.judge.moved import LAST_STEP, Step
 from shared.grid import leaves, rays, solids

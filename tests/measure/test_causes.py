@@ -13,8 +13,7 @@ from raycert.cases.families.sketch import ball, pipe, rod, ten, two
 from raycert.cases.formats import BINARY32, BINARY64
 from raycert.cases.model import Cylinder, InfiniteCylinder, Solid
 from raycert.oracle.exact.intervals import Intervals
-from raycert.oracle.exact.rounding import nearest
-from raycert.oracle.exact.surd import Surd
+from raycert.oracle.exact.surd import Surd, nearest
 from raycert.oracle.judge.levels import Judge
 from raycert.oracle.measure.catalog import BY_NAME
 from raycert.oracle.measure.causes import (

@@ -9,8 +9,7 @@ import pytest
 from raycert.cases.families.frames import ON_Z
 from raycert.cases.families.sketch import rod, ten, two
 from raycert.cases.model import Cylinder, Difference, InfiniteCylinder, Ray, Refused
-from raycert.oracle.exact.rounding import enclose
-from raycert.oracle.exact.surd import Surd, fraction
+from raycert.oracle.exact.surd import Surd, enclose, fraction
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.measure.causes import first_leaf, nearest
 from raycert.oracle.measure.sweeps import (

@@ -26,8 +26,7 @@ from raycert.cases.model import (
     Union,
 )
 from raycert.oracle.exact.intervals import Intervals, intersect, subtract, union
-from raycert.oracle.exact.rounding import enclose
-from raycert.oracle.exact.surd import Surd, dyadic, fraction
+from raycert.oracle.exact.surd import Surd, dyadic, enclose, fraction
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.witness import meshes
 from raycert.oracle.witness.bodies import (
