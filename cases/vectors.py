@@ -15,14 +15,9 @@ from typing import Protocol, Self, TypeVar
 class Arithmetic(Protocol):
     """A number as far as a vector needs one: a float, an int, a `Fraction`, a ball, an array."""
 
-    def __add__(self, other: Self, /) -> Self:
-        """Return self + other."""
-
-    def __sub__(self, other: Self, /) -> Self:
-        """Return self - other."""
-
-    def __mul__(self, other: Self, /) -> Self:
-        """Return self * other."""
+    def __add__(self, other: Self, /) -> Self: ...
+    def __sub__(self, other: Self, /) -> Self: ...
+    def __mul__(self, other: Self, /) -> Self: ...
 
 
 N = TypeVar("N", bound=Arithmetic)

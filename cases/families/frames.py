@@ -33,11 +33,7 @@ class Frame:
 
     def vector(self, vector: Exact) -> Exact:
         x, y, z = vector
-        first, second, third = (
-            x * a + y * b + z * c
-            for a, b, c in zip(self.lateral, self.across, self.axis, strict=True)
-        )
-        return (first, second, third)
+        return plus(plus(times(x, self.lateral), times(y, self.across)), times(z, self.axis))
 
     def point(self, point: Exact) -> Exact:
         return plus(self.vector(point), self.shift)
@@ -60,19 +56,13 @@ class Frame:
 X: Exact = (1, 0, 0)
 Y: Exact = (0, 1, 0)
 Z: Exact = (0, 0, 1)
-
-
-def _back(vector: Exact) -> Exact:
-    return times(-1, vector)
-
-
 UPRIGHT = Frame("", "", X, Y, Z)
 ON_Z = Frame("on-z", "axis along +z", X, Y, Z)
 ON_X = Frame("on-x", "axis along +x", Y, Z, X)
 ON_Y = Frame("on-y", "axis along +y", Z, X, Y)
-DOWN_Z = Frame("down-z", "axis along -z", Y, X, _back(Z))
-DOWN_X = Frame("down-x", "axis along -x", Z, Y, _back(X))
-DOWN_Y = Frame("down-y", "axis along -y", X, Z, _back(Y))
+DOWN_Z = Frame("down-z", "axis along -z", Y, X, (0, 0, -1))
+DOWN_X = Frame("down-x", "axis along -x", Z, Y, (-1, 0, 0))
+DOWN_Y = Frame("down-y", "axis along -y", X, Z, (0, -1, 0))
 ALIGNED = (ON_Z, ON_X, ON_Y, DOWN_Z, DOWN_X, DOWN_Y)
 """Along coordinate axes, right-handed."""
 

@@ -326,15 +326,6 @@ LAWS = (
 )  # fmt: skip
 
 
-def _laws() -> Iterator[Shot]:
-    return held((replace(rule, text=f"one side of a law, {rule.text}") for rule in LAWS), ["mixed"])
-
-
-def _deep() -> Iterator[Shot]:
-    named = (replace(r, text=f"a deep tree, {r.slug.replace('-', ' ')}") for r in DEEPS)
-    return held(named, ("balls", "mixed"))
-
-
 ARTICLES = {
     "ball": "a sphere", "rod": "a cylinder met across", "pipe": "an infinite cylinder",
     "layer": "a slab", "caps": "a cylinder met end on", "wall": "a cylinder met in its wall",
@@ -537,21 +528,20 @@ def _near(_: Format, k: int) -> Iterator[Shot]:
                        known)  # fmt: skip
 
 
-def _twelfth_gaps(fmt: Format) -> range:
-    return gaps(fmt, 12)
-
-
 FAMILIES = (
     _rules("csg-difference", "How two lists differ, closed again.", DIFFERENCES),
     _rules("csg-union", "How two lists join, touching or not.", UNIONS),
     _rules("csg-intersection", "What two lists share, a point too.", INTERSECTIONS),
     _rules("csg-nested-lists", "Lists of lists, closed at each node.", NESTED, "mixed"),
-    family("csg-laws", "De Morgan, distribution and absorption: both sides.", tuple(_laws())),
+    _rules("csg-laws", "De Morgan, distribution and absorption: both sides.",
+           tuple(replace(r, text=f"one side of a law, {r.text}") for r in LAWS), "mixed"),
     family("csg-identical", "A - A, A u A, A n A.", tuple(_identical())),
     family("csg-order", "The same parts in every order.", tuple(_orders()), flags=("order",)),
     family("csg-clip", "Parts cut off at t = 0 before they are combined.",
            tuple(held(CLIPPED, ("balls", "rods", "mixed"), ()))),
-    family("csg-deep", "Trees of three and four levels.", tuple(_deep()), flags=("deep-tree",)),
+    _rules("csg-deep", "Trees of three and four levels.",
+           tuple(replace(r, text=f"a deep tree, {r.slug.replace('-', ' ')}") for r in DEEPS),
+           "balls", "mixed", flags=("deep-tree",)),
     _rules("csg-empty", "Lists that are empty, inside a tree or at its root.", EMPTIES,
            "balls", "rods", "mixed", flags=("empty",)),
     family("csg-equal-ends", "Equal endpoints from different surfaces.", tuple(_equal()),
@@ -559,6 +549,6 @@ FAMILIES = (
     family("csg-one-ulp", "Faces one ulp apart.", _one_ulp, flags=("ulp-apart",), tier="stiff"),
     family("csg-gap", "Gaps from some ulps to far below half an ulp.",
            ladder(_gap_exponents, _gaps), flags=("near-touching",), tier="stiff"),
-    family("csg-near-touch", "Spheres that almost touch.", ladder(_twelfth_gaps, _near),
+    family("csg-near-touch", "Spheres that almost touch.", ladder(lambda fmt: gaps(fmt, 12), _near),
            flags=("near-touching",), tier="stiff"),
 )  # fmt: skip

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import partial
 from typing import Any, Literal, cast
 
 from raycert.cases.case import KnownEnd
@@ -97,16 +98,10 @@ def half_space(level: Number = 0, normal: Number = 1) -> Body:
     return Body("half_space", (0, 0, level), (0, 0, level + normal))
 
 
-def rod(p: Exact, q: Exact, radius: Number) -> Body:
-    return Body("cylinder", p, q, radius)
-
-
-def pipe(p: Exact, q: Exact, radius: Number) -> Body:
-    return Body("infinite_cylinder", p, q, radius)
-
-
-def layer(p: Exact, q: Exact) -> Body:
-    return Body("slab", p, q)
+rod = partial(Body, "cylinder")
+pipe = partial(Body, "infinite_cylinder")
+layer = partial(Body, "slab")
+"""The same by p and q, and a radius where there is one."""
 
 
 def below(point: Exact, normal: Exact) -> Body:

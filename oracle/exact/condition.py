@@ -111,13 +111,9 @@ class At:
 
     def from_point(self, x: IntVector) -> Elements:
         """Return z (f(t) - x)."""
-        a, b, c = minus(self.grid.u, x)
-        v = self.grid.v
-        return (
-            self.constant(a * self.z) + self.top * v[0],
-            self.constant(b * self.z) + self.top * v[1],
-            self.constant(c * self.z) + self.top * v[2],
-        )
+        away = zip(minus(self.grid.u, x), self.grid.v, strict=True)
+        a, b, c = (self.constant(y * self.z) + self.top * v for y, v in away)
+        return (a, b, c)
 
     def ray_terms(self, gradient: Elements) -> Iterator[Element]:
         """Yield |u_i dF/du_i| and |v_i dF/dv_i|, times z: dF/dv = t dF/du."""

@@ -582,7 +582,7 @@ def half_space_always_left(solid: HalfSpace, grid: Grid) -> Plane:
 
 
 FAULTS_OF_LEAVES: tuple[tuple[str, Fault, tuple[Motion, ...]], ...] = (
-    ("raycert.oracle.exact.leaf.sub", points_taken_for_vectors, (translation,)),
+    ("raycert.oracle.exact.leaf.minus", points_taken_for_vectors, (translation,)),
     ("raycert.oracle.exact.leaf.cross", cross_with_a_wrong_sign, (turning,)),
     ("raycert.oracle.exact.grid.Grid.scalar", radius_longer_by_1, (scaling,)),
     ("raycert.oracle.exact.trace.half_space", half_space_always_left, (reversal, a_later_start)),
