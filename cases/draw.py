@@ -140,10 +140,9 @@ def _start(draw: Draw) -> Shot:
     """Return a start inside, on a face, or a small step beside it."""
     shot, step = any_shot(draw), draw.sign() * draw.gap()
     face = draw.pick(_faces(shot))
-    back, flag = draw.pick(
-        [(-face, "start-on-surface"), (step - face, "start-near-surface"), (step, "start-inside")]
-    )
-    return shot.back(back).but(flags=(flag,))
+    starts = ((-face, "on-surface"), (step - face, "near-surface"), (step, "inside"))
+    back, where = draw.pick(starts)
+    return shot.back(back).but(flags=(f"start-{where}",))
 
 
 def _behind(draw: Draw) -> Shot:
@@ -190,13 +189,9 @@ def _tilt(draw: Draw) -> Shot:
 def _level(draw: Draw) -> Shot:
     """Return a ray almost level with a plane, or with two."""
     lean, side = draw.sign() * draw.small(), Fraction(draw.whole(-24, 24), 8)
-    shape = draw.pick(
-        [
-            layer((0, 0, -1), (0, 0, 1)),
-            below((0, 0, 0), (0, 0, draw.whole(1, 9))),
-            rod((0, 0, -1), (0, 0, 1), draw.pick((Fraction(3), draw.large()))),
-        ]
-    )
+    two_planes, one = layer((0, 0, -1), (0, 0, 1)), below((0, 0, 0), (0, 0, draw.whole(1, 9)))
+    caps = rod((0, 0, -1), (0, 0, 1), draw.pick((Fraction(3), draw.large())))
+    shape = draw.pick((two_planes, one, caps))
     slope = (draw.whole(1, 9), draw.whole(-9, 9), lean)
     return _shot(draw, "planes", shape, (0, 0, side), slope).back(draw.whole(0, 2))
 
@@ -378,11 +373,8 @@ class _Parts:
     def tree(self, kind: str, depth: int) -> TreeRecipe:
         """Return a Boolean, now and then of parts that are alike, or the same."""
         if self.draw.chance(1, 4):
-            leaf = self.leaf(self.draw.pick(PARTS))
-            return TreeRecipe(
-                kind,
-                recipes.alike(leaf, self.draw.pick(recipes.PICKS), self.draw.pick(recipes.NESTED)),
-            )
+            leaf, pick = self.leaf(self.draw.pick(PARTS)), self.draw.pick(recipes.PICKS)
+            return TreeRecipe(kind, recipes.alike(leaf, pick, self.draw.pick(recipes.NESTED)))
         parts: list[Recipe] = []
         for _ in range(self.draw.pick((2, 2, 3, 2, 3, 4, 2, 1))):
             if parts and self.draw.chance(1, 10):

@@ -29,6 +29,10 @@ Answers = Literal["intervals", "first", "any"]
 ANSWERS: tuple[Answers, ...] = ("intervals", "first", "any")
 FromInside = Literal["zero", "exit", "miss"]
 FROM_INSIDE: tuple[FromInside, ...] = ("zero", "exit", "miss")
+CHOICES: dict[str, Iterable[str]] = {
+    "answers": ANSWERS, "precision": FORMATS, "numbers": SPELLINGS, "from_inside": FROM_INSIDE,
+}  # fmt: skip
+"""The fields of a hello that are one of some words."""
 TOUCHES = ("tangent", "wall", "cap", "rim", "start")
 """The kinds of touch that a convention may keep or drop."""
 
@@ -126,22 +130,15 @@ def read_hello(line: bytes) -> Hello:
 
 def _hello(message: dict[str, Any], line: bytes) -> Hello:
     if message.get("hello") != VERSION or message["hello"] is True:
-        raise BadLine(
-            f'hello is not {VERSION}: {_shown(line)}; expected {{"hello": 1, "name": ...}}'
-        )
+        expected = '{"hello": 1, "name": ...}'
+        raise BadLine(f"hello is not {VERSION}: {_shown(line)}; expected {expected}")
     known = {name: message[name] for name in Hello.__slots__ if name in message}
     for name in message:
         if name not in Hello.__slots__ and name != "hello":
             raise BadLine(f"hello.{name:.40} is not a field (fields: {', '.join(Hello.__slots__)})")
     if not isinstance(known.get("name"), str) or not known["name"]:
         raise BadLine("hello.name is missing or not a string")
-    choices: dict[str, Iterable[str]] = {
-        "answers": ANSWERS,
-        "precision": FORMATS,
-        "numbers": SPELLINGS,
-        "from_inside": FROM_INSIDE,
-    }
-    for name, allowed in choices.items():
+    for name, allowed in CHOICES.items():
         if name in known and known[name] not in list(allowed):
             raise BadLine(f"hello.{name} is not one of {', '.join(allowed)}: {known[name]!r:.40}")
     if "solids" in known:
@@ -160,9 +157,8 @@ def _solids(value: object) -> tuple[str, ...]:
         raise BadLine("hello.solids is not a list of one or more solid types")
     for kind in value:
         if not isinstance(kind, str) or kind not in SOLIDS:
-            raise BadLine(
-                f"hello.solids has an unknown type {kind!r:.40} (known: {', '.join(SOLIDS)})"
-            )
+            known = ", ".join(SOLIDS)
+            raise BadLine(f"hello.solids has an unknown type {kind!r:.40} (known: {known})")
     return tuple(value)
 
 
@@ -189,9 +185,8 @@ def convention(text: str) -> dict[str, bool]:
     names = others.replace(",", " ").split()
     for name in names:
         if name not in TOUCHES:
-            raise BadLine(
-                f"convention names an unknown kind of touch: {name!r:.40} ({', '.join(TOUCHES)})"
-            )
+            known = ", ".join(TOUCHES)
+            raise BadLine(f"convention names an unknown kind of touch: {name!r:.40} ({known})")
     return {kind: (base == "closed") != (kind in names) for kind in TOUCHES}
 
 

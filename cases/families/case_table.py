@@ -304,12 +304,10 @@ Places = dict[str, tuple[int, str]]
 HALF_SPACE_PLACES = {"inside": (-6, "inside"), "on": (0, "on the plane"), "outside": (5, "outside")}
 HALF_SPACE_MOVES = {"in": (-2, "inward"), "along": (0, "along the plane"), "out": (2, "outward")}
 SLAB_PLACES = {
-    "beyond-p": (-1, "beyond p"),
-    "on-p": (0, "on the plane of p"),
-    "between": (2, "between the planes"),
-    "on-q": (8, "on the plane of q"),
+    "beyond-p": (-1, "beyond p"), "on-p": (0, "on the plane of p"),
+    "between": (2, "between the planes"), "on-q": (8, "on the plane of q"),
     "beyond-q": (9, "beyond q"),
-}
+}  # fmt: skip
 SLAB_MOVES = {"to-q": (2, "towards q"), "along": (0, "along the planes"), "to-p": (-2, "towards p")}
 
 

@@ -35,12 +35,8 @@ ROUND, TURNED = rod((0, 0, -2), (0, 0, 2), 1), rod((0, 0, 2), (0, 0, -2), 1)
 
 def _cube(low: Exact, high: Exact) -> Shape:
     """Return the box between two corners, as three slabs."""
-    return all_of(
-        *(
-            layer(low, (*low[:i], high[i], *low[i + 1 :]))  # type: ignore[arg-type]
-            for i in range(3)
-        )
-    )
+    (x, y, z), (a, b, c) = low, high
+    return all_of(*(layer(low, q) for q in ((a, y, z), (x, b, z), (x, y, c))))
 
 
 SPHERES = (

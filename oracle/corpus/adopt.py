@@ -100,9 +100,8 @@ def examine(candidate: Candidate, witnesses: Sequence[str]) -> Hearing:
     checked = check(Query("found", candidate.solid, candidate.ray), witnesses)
     for name, verdict, _ in checked.testimonies:
         if verdict.outcome == "disagreed":
-            raise Contradiction(
-                f"{name} finds {verdict.found}, the oracle {checked.answer}: {verdict.why}"
-            )
+            found = f"{name} finds {verdict.found}, the oracle {checked.answer}"
+            raise Contradiction(f"{found}: {verdict.why}")
     return checked
 
 
@@ -121,15 +120,9 @@ def adopt(corpus: Path, name: str, candidate: Candidate, slug: str | None = None
         raise Unfit("--why: another case of the family says the same; say what this one shows")
     precisions = _precisions(candidate)
     taken = {slug_of(entry) for entry in entries}
-    case = Case(
-        slug=_slug(candidate, slug, taken),
-        why=candidate.why,
-        solid=candidate.solid,
-        ray=candidate.ray,
-        tier=candidate.tier or tier(candidate),
-        flags=candidate.flags,
-        source=candidate.source,
-    )
+    slug, own = _slug(candidate, slug, taken), candidate.tier or tier(candidate)
+    said = candidate.why, candidate.solid, candidate.ray, own, candidate.flags, candidate.source
+    case = Case(slug, *said)
     entries = (*entries, Adopted(case, precisions))
     family = Family(name, REASON, lambda fmt: cases_of(entries, fmt))
     made = dict(golden_files((family,), lambda _: None))

@@ -24,8 +24,6 @@ from raycert.oracle.judge.levels import MEASURES, Judge, decisive
 from raycert.oracle.witness.crosscheck import Query, check
 
 Progress = Callable[[str], None]
-
-
 USUAL = ("definition", "enclosure")
 RELEASE = (*USUAL, "symbols", "meshes")
 """The witnesses that a row has to get past before it is written, and those for a release."""
@@ -49,20 +47,13 @@ def golden_row(family: Family, case: Case, fmt: Format, witnesses: Sequence[str]
             raise Contradiction(f"{id}: {name} finds {verdict.found}: {verdict.why}")
     judge = Judge(case.solid, case.ray, fmt, case.tier)
     return GoldenRow(
-        id=id,
-        why=case.why,
-        flags=case.flags,
-        tier=case.tier,
-        source=case.source,
-        solid=case.solid,
-        ray=case.ray,
-        rows=answer.rows,
-        condition=condition(answer.intervals, case.solid, case.ray),
-        decisive=decisive(judge),
+        id=id, why=case.why, flags=case.flags, tier=case.tier, source=case.source,
+        solid=case.solid, ray=case.ray, rows=answer.rows,
+        condition=condition(answer.intervals, case.solid, case.ray), decisive=decisive(judge),
         intervals=tuple(span(i, case.solid, case.ray, fmt) for i in answer.intervals),
         expected=judge.expected,
         accept={level: judge.accept(level) for level in MEASURES},
-    )
+    )  # fmt: skip
 
 
 def span(interval: Interval, solid: Solid, ray: Ray, fmt: Format) -> Span:
@@ -74,16 +65,10 @@ def end(t: Surd, solid: Solid, ray: Ray, fmt: Format) -> End:
     at, rounded, value = place(t, solid, ray), enclose(t, fmt), t.rational()
     irrational = t.finite and value is None
     return End(
-        polynomial=t.polynomial() if irrational else None,
-        root=t.root() if irrational else None,
-        fraction=None if value is None else value.as_integer_ratio(),
-        nearest=rounded.nearest,
-        down=rounded.down,
-        up=rounded.up,
-        digits=decimal(t),
-        faces=at.faces,
-        kind=at.kind,
-    )
+        polynomial=t.polynomial() if irrational else None, root=t.root() if irrational else None,
+        fraction=None if value is None else value.as_integer_ratio(), nearest=rounded.nearest,
+        down=rounded.down, up=rounded.up, digits=decimal(t), faces=at.faces, kind=at.kind,
+    )  # fmt: skip
 
 
 def known(pairs: tuple[tuple[KnownEnd, KnownEnd], ...]) -> Intervals:
