@@ -66,7 +66,6 @@ class Request:
     """The options that put another corpus in its place."""
 
     def repeat(self, *extra: str) -> str:
-        """Return the command line that asks again."""
         asked = ("--level", self.level, "--convention", self.convention)
         options = [*asked, *self.golden, *extra]
         return shlex.join(["raycert", "certify", *options, *self.command])
@@ -133,7 +132,6 @@ def certificate(
 
 
 def _question(request: Request, hello: Hello, corpus: Corpus, shard: str | None) -> Json:
-    """Return what was asked, of whom, and of which rows."""
     return {
         "asked": {"level": request.level, "convention": request.convention},
         "selection": list(request.selection),
@@ -150,7 +148,6 @@ def _question(request: Request, hello: Hello, corpus: Corpus, shard: str | None)
 
 
 def _results(request: Request, hello: Hello, grades: Sequence[Grade]) -> Json:
-    """Return what the answers came to."""
     level, repeat, groups = request.level, request.repeat_row, by_solid(grades)
     return {
         "not_decisive": {name: _not_decisive(usual(grades), name) for name in MEASURES},
@@ -322,7 +319,6 @@ def _band(grade: Grade, level: Level, hello: Hello) -> tuple[Numbers, Numbers]:
 
 
 def _failure(grade: Grade, repeat: Repeat) -> Json:
-    """Return one failing row: why, what was answered, and the command that repeats it."""
     return {
         **_case(grade.row),
         "why": grade.row.why,
@@ -338,7 +334,6 @@ def _case(row: GoldenRow) -> Json:
 
 
 def _answered(grade: Grade) -> Json:
-    """Return what was answered and expected, and the errors between."""
     errors = {"strict_k": grade.strict, "squared_k": grade.squared, "ulps": grade.ulps}
     return {
         "answer": _pairs(grade.answer),

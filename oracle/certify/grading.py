@@ -44,17 +44,14 @@ class Grade:
 
     @cached_property
     def strict(self) -> float:
-        """Return the strict backward error k."""
         return inf if self.said is None else self.said.backward_error(self.judge, "strict")
 
     @cached_property
     def squared(self) -> float:
-        """Return the squared backward error k."""
         return inf if self.said is None else self.said.backward_error(self.judge, "squared")
 
     @cached_property
     def ulps(self) -> float:
-        """Return the forward error in ulps."""
         return inf if self.said is None else self.said.forward_error(self.judge)
 
     def fault(self, level: Level) -> str | None:
@@ -66,7 +63,6 @@ class Grade:
         return level in self.decides or level in self.faults
 
     def accept(self, level: Level) -> Accept:
-        """Return the lists of `sound` or `stable`: the row's own, but for a declared tolerance."""
         return accept(self.row, self.judge, level)
 
     @property
@@ -84,7 +80,6 @@ def usual(grades: Iterable[Grade]) -> list[Grade]:
 
 
 def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
-    """Return the grade of what an implementation answered to a row."""
     judge = Judge(row.solid, row.ray, hello.format, row.tier, hello.tolerance)
     said = None if isinstance(outcome, Failure) or _refusal(outcome) else claim(outcome, hello)
     whole = _refusal(outcome) if said is None else said.malformed(judge)
@@ -115,7 +110,6 @@ def deciding(row: GoldenRow, judge: Judge) -> tuple[str, ...]:
 
 
 def _refusal(outcome: Reply | Failure) -> str | None:
-    """Return why there is no answer in an outcome; None if there is one."""
     if isinstance(outcome, Failure):
         return f"{outcome.kind}: {outcome.detail}"
     if outcome.unsupported is not None:

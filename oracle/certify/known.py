@@ -73,7 +73,6 @@ class Expectations:
         return [f"expected failures without a link: {', '.join(bare[:3])}{more}"]
 
     def of(self, kind: Kind) -> dict[str, Expectation]:
-        """Return the entries of a kind by name."""
         return self._by_kind[kind]
 
     @cached_property
@@ -200,7 +199,6 @@ class Matched:
         return not (self.unexpected_passes or self.unmatched or self.new)
 
     def as_json(self, file: str) -> dict[str, Any]:
-        """Return this as a part of the certificate."""
         return {"file": file, **{name: list(entries) for name, entries in asdict(self).items()}}
 
 
@@ -328,7 +326,6 @@ class _Run:
         return lines
 
     def state(self, entry: Expectation) -> tuple[State, str]:
-        """Return what the run says of an entry, and why."""
         if entry.kind == "convention":
             return self._state_of_convention(entry)
         about = self._named[entry.kind].get(entry.name, [])

@@ -96,7 +96,6 @@ class Prepared:
     known: tuple[GoldenRow, ...]
 
     def only(self, families: Sequence[str]) -> Prepared:
-        """Return the part of this that asks these families only."""
         rows = tuple(row for row in self.rows if row.family in families)
         more = len(self.rows) - len(rows)
         plan = replace(self.plan, selection=replace(self.plan.selection, families=tuple(families)))
@@ -114,7 +113,6 @@ class Result:
     verdict: Verdict
 
     def matched(self, expectations: Expectations) -> Matched:
-        """Return how the run compares with what was expected of it."""
         plan = self.prepared.plan
         return match(expectations, self.grades, plan.level, plan.convention, self.prepared.known)
 
@@ -235,7 +233,6 @@ class _Answers:
         self._prepared, self._watch = prepared, watch
 
     def add(self, rows: Sequence[GoldenRow]) -> None:
-        """Ask some rows and judge the answers."""
         self._judge(rows, self._ask(rows))
         if self._prepared.plan.fail_fast and not self.stopped:
             self._stop_at_a_failure()

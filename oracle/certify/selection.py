@@ -46,7 +46,6 @@ class Shard:
         return f"{self.number}/{self.of}"
 
     def takes(self, id: str) -> bool:
-        """Whether the row with this id is in the shard."""
         digest = sha256(id.encode()).digest()
         return int.from_bytes(digest[:8], "big") % self.of == self.number - 1
 
@@ -56,7 +55,6 @@ NAMES = {"solids": "--solid", "tiers": "--tier", "families": "--family", "ids": 
 
 
 def _values(row: GoldenRow) -> dict[str, str]:
-    """Return what a row has in each of these fields."""
     return {"solids": type_of(row.solid), "tiers": row.tier, "families": row.family, "ids": row.id}
 
 
@@ -81,13 +79,11 @@ class Selection:
     """Only the smoke rows, which `select` knows."""
 
     def takes(self, row: GoldenRow) -> bool:
-        """Whether a row is selected."""
         values = _values(row).items()
         named = all(value in (getattr(self, name) or (value,)) for name, value in values)
         return named and (self.shard is None or self.shard.takes(row.id))
 
     def options(self) -> tuple[str, ...]:
-        """Return the command-line options that select the same."""
         named = tuple(
             word
             for field, option in NAMES.items()

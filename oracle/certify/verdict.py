@@ -47,7 +47,6 @@ class Touches:
 
     @classmethod
     def of(cls, grades: Sequence[Grade]) -> Touches:
-        """Count the touches that were answered."""
         kept = {}
         for kind in TOUCHES:
             met = [g for g in grades if any(span.touch == kind for span in g.row.intervals)]
@@ -123,7 +122,6 @@ class Group:
     grades: tuple[Grade, ...]
 
     def tally(self, level: Level) -> Tally:
-        """Return how the rows fared on a level."""
         return Tally.of(self.grades, level)
 
     def granted(self) -> Level | None:
@@ -152,7 +150,6 @@ def by_solid(grades: Iterable[Grade]) -> list[Group]:
 
 
 def by_family(grades: Iterable[Grade]) -> list[Group]:
-    """Return the grades by family."""
     return _groups(grades, lambda g: g.row.family)
 
 

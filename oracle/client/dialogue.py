@@ -123,12 +123,10 @@ class Dialogue(ABC):
 
     @property
     def unanswered(self) -> list[Question]:
-        """Return the questions without an answer, oldest first."""
         return [question for _, question in self._owed]
 
     @property
     def owed(self) -> int:
-        """Return how many questions have no answer."""
         return len(self._owed)
 
     def ask(self, questions: Iterable[Question]) -> None:
@@ -172,7 +170,6 @@ class Dialogue(ABC):
         return "" if ending == "ended with exit status 0" else f"after its input ended it {ending}"
 
     def kill(self) -> None:
-        """Leave nothing of the target behind."""
         self._process.kill()
 
     def _unasked(self) -> bytes:
@@ -193,7 +190,6 @@ class Command:
     words: tuple[str, ...]
 
     def open(self, limits: Limits, ids: Iterator[str]) -> PipeDialogue:
-        """Start the program and read its hello. Raises `Unusable`."""
         return PipeDialogue(self.words, limits, ids)
 
 
@@ -201,7 +197,6 @@ class PipeDialogue(Dialogue):
     """The dialogue with a program, over its standard input and output."""
 
     def __init__(self, command: Sequence[str], limits: Limits, ids: Iterator[str]) -> None:
-        """Start the program and read its hello. Raises `Unusable`."""
         self._name = shlex.join(command)
         self._ids = ids
         self._last_id = ""
@@ -228,7 +223,6 @@ class PipeDialogue(Dialogue):
             raise Unusable(seen) from None
 
     def _match(self, line: bytes) -> Iterable[tuple[Question, Reply]]:
-        """Return the oldest question with the answer to it that `line` is."""
         if not self._owed:
             raise Broken(too_much(line))
         id, question = self._owed[0]

@@ -34,7 +34,6 @@ class InProcess:
     spec: str
 
     def open(self, limits: Limits, ids: Iterator[str]) -> WorkerDialogue:
-        """Start a worker and load the code there. Raises `Unusable`."""
         return WorkerDialogue(self, limits)
 
 
@@ -42,7 +41,6 @@ class WorkerDialogue(Dialogue):
     """The dialogue with a worker."""
 
     def __init__(self, target: InProcess, limits: Limits) -> None:
-        """Start the worker and read the hello. Raises `Unusable`."""
         self._spec = target.spec
         command = [sys.executable, "-P", "-m", WORKER, target.kind, target.spec]
         super().__init__(Process(command, LINE), limits)
@@ -122,13 +120,11 @@ SETTERS: dict[type, tuple[Any, ...]] = {
 
 
 def write_batch(questions: Iterable[tuple[Solid, Ray]]) -> bytes:
-    """Return questions as bytes."""
     forms = [(_plain(solid), ray.origin, ray.direction) for solid, ray in questions]
     return pickle.dumps(forms, -1)
 
 
 def read_batch(data: bytes) -> Iterator[tuple[Solid, Ray]]:
-    """Yield the questions of a batch."""
     for solid, origin, direction in pickle.loads(data):
         yield _whole(solid), _filled(Ray, (origin, direction))
 

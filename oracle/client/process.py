@@ -46,13 +46,11 @@ class Broken(Exception):
     """The program has failed and can only be killed."""
 
     def __init__(self, failure: Failure) -> None:
-        """Carry the failure."""
         super().__init__(f"{failure.kind}: {failure.detail}")
         self.failure = failure
 
 
 def shown(data: bytes | bytearray, most: int = 160) -> str:
-    """Return the beginning of some output as text."""
     text = data[: most + 1].decode("utf-8", "replace").rstrip("\r\n")
     return text if len(text) <= most else text[: most - 3] + "..."
 
@@ -90,7 +88,6 @@ class Process:
             thread.start()
 
     def send(self, data: bytes) -> None:
-        """Pass bytes on to the program, as soon as it reads them."""
         self._out.put(data)
 
     def close(self) -> None:

@@ -53,7 +53,6 @@ class Interrupted(KeyboardInterrupt):
     """The person interrupted the run; `run` is what was known by then."""
 
     def __init__(self, run: Run) -> None:
-        """Carry the partial run."""
         super().__init__()
         self.run = run
 
@@ -107,7 +106,6 @@ class Replay:
         limits: Limits,
         on_progress: Progress,
     ) -> None:
-        """Start the implementation for the first time. Raises `Unusable`."""
         self._target, self._questions, self._limits = target, questions, limits
         self._on_progress = on_progress
         self._pending = deque(questions)
@@ -122,7 +120,6 @@ class Replay:
         self._hello = self._dialogue.hello
 
     def all(self) -> None:
-        """Get every question an outcome."""
         try:
             while self._pending:
                 self._stream()
@@ -131,13 +128,11 @@ class Replay:
             self._abandon(str(reason))
 
     def result(self) -> Run:
-        """Return what is known so far."""
         known = self._outcomes
         outcomes = {q.id: known[q.id] for q in self._questions if q.id in known}
         return Run(self._hello, outcomes, self._restarts, tuple(self._notes))
 
     def kill(self) -> None:
-        """Leave no process behind."""
         dialogue, self._dialogue = self._dialogue, None
         if dialogue is not None:
             dialogue.kill()

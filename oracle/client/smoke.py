@@ -51,12 +51,10 @@ class Easy:
 
     @property
     def question(self) -> Question:
-        """Return the question alone."""
         return Question(f"smoke/{self.slug}", self.solid, self.ray)
 
     @property
     def speed(self) -> float:
-        """Return |direction|."""
         return math.hypot(*self.ray.direction)
 
 
@@ -172,7 +170,6 @@ def _refusal(outcome: Outcome) -> str | None:
 
 
 def _of_failures(broken: Sequence[Failure]) -> list[str]:
-    """Say what most failures have in common."""
     first = broken[0]
     kind, times = Counter(failure.kind for failure in broken).most_common(1)[0]
     if 2 * times > len(broken) and kind != "unrepeatable":
@@ -289,7 +286,6 @@ MISREADINGS: tuple[tuple[str, Misreading], ...] = (
 
 
 def _of_answers(answers: Sequence[tuple[Easy, Pairs]]) -> list[str]:
-    """Say what most wrong answers have in common."""
     wrong = sum(not _close(answer, case.truth) for case, answer in answers)
     if 2 * wrong <= sum(bool(case.truth) for case, _ in answers):
         return []

@@ -70,7 +70,6 @@ class LibraryError(Exception):
 
 
 def main(kind: str, spec: str) -> None:
-    """Serve until the input ends."""
     questions, answers = _private_pipes()
     try:
         loaded = KINDS[kind](spec)
@@ -98,7 +97,6 @@ def _private_pipes() -> tuple[BinaryIO, BinaryIO]:
 
 
 def _answer(batch: Iterable[tuple[Solid, Ray]], loaded: Loaded, answers: BinaryIO) -> None:
-    """Answer a batch of questions."""
     texts: list[str] = []
     length = 0
     sent = time.monotonic()
@@ -257,7 +255,6 @@ class Library:
     """The function of a library as a callable of a solid and a ray."""
 
     def __init__(self, function: ctypes._NamedFuncPointer, hello: Hello) -> None:
-        """Hold the function, and room for its answers."""
         self._function = function
         self._answers = hello.answers
         self._make_room(ROOM)

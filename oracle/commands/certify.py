@@ -74,7 +74,6 @@ input; 3 the target could not be run or nothing was tested.
 
 
 def report_options(function: Function) -> Function:
-    """Add an option for each form of report."""
     out = click.Path(dir_okay=False, allow_dash=True)
     for form, text in reversed(REPORTS.items()):
         function = click.option(f"--{form}", type=out, metavar="FILE", help=text)(function)

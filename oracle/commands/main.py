@@ -61,11 +61,9 @@ class Verbs(click.Group):
     """A group whose commands are imported when they are needed."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        """Return the verbs in the order of the table."""
         return list(PLACES)
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        """Return a verb's command, imported now."""
         return load(PLACES[cmd_name]) if cmd_name in PLACES else None
 
     def resolve_command(

@@ -127,14 +127,12 @@ def find(corpus: Corpus, id: str) -> GoldenRow:
 
 
 def level_option(default: Level, text: str | None = None) -> Decorator[Any]:
-    """Return `--level`, one of LEVELS."""
     return click.option(
         "--level", type=click.Choice(LEVELS), default=default, show_default=True, help=text
     )
 
 
 def check_convention(text: str) -> None:
-    """Refuse `--convention` where it is none."""
     from raycert.cases.protocol import BadLine, convention
 
     try:
@@ -160,7 +158,6 @@ TARGET is one of
 
 
 def limits_options(function: Function) -> Function:
-    """Add the options for what an implementation may take."""
     options = (
         ("--hello-timeout", SECONDS, 10.0, "Seconds to the hello."),
         ("--case-timeout", SECONDS, 5.0, "Seconds to an answer."),
@@ -173,7 +170,6 @@ def limits_options(function: Function) -> Function:
 
 
 def limits(options: dict[str, Any]) -> Limits:
-    """Return the limits that the options set."""
     from raycert.oracle.client.dialogue import Limits
 
     return Limits(options["hello_timeout"], options["case_timeout"], options["line_limit"])

@@ -39,7 +39,6 @@ EXPECTATIONS = "expectations"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Add the options."""
     group = parser.getgroup(NAME, "certify a ray tracer on the golden cases of raycert")
     add = group.addoption
     add("--raycert", metavar="TARGET", help="Certify this command, or module:function.")
@@ -98,7 +97,6 @@ class FamilyTest(pytest.Function):
         return test
 
     def reportinfo(self) -> tuple[str, None, str]:
-        """Return where the test is: in no file."""
         return NAME, None, f"{NAME}::{self.name}"
 
 
@@ -218,7 +216,6 @@ def _is_about(name: str, expected: Iterable[str]) -> bool:
 
 
 def _plan(config: pytest.Config) -> Plan:
-    """Return the plan that the options ask for."""
     from raycert.cases.corpus import GOLDEN
     from raycert.cases.protocol import convention
     from raycert.oracle.certify.run import Plan

@@ -66,20 +66,16 @@ class Listed:
     pairs: Numbers
 
     def malformed(self, judge: Judge) -> str | None:
-        """Return what is wrong with the list."""
         return judge.malformed(self.pairs)
 
     def fault(self, accept: Accept) -> str | None:
-        """Return why it is not between the lists."""
         return accept.fault(self.pairs)
 
     def is_expected(self, wanted: Numbers) -> str | None:
-        """Return why it is not the wanted list."""
         shown = [list(pair) for pair in wanted]
         return None if self.pairs == wanted else f"is not the expected list {shown}"
 
     def is_faithful(self, wanted: Numbers, enclosures: Enclosures) -> str | None:
-        """Return why it has not as many pairs, or which end is none of the two numbers."""
         if len(self.pairs) != len(wanted):
             return f"{len(self.pairs)} pairs, {len(wanted)} expected"
         for pair, around in zip(self.pairs, enclosures, strict=True):
@@ -89,15 +85,12 @@ class Listed:
         return None
 
     def backward_error(self, judge: Judge, measure: Measure) -> float:
-        """Return the least k whose lists hold it."""
         return judge.backward_error(self.pairs, measure)
 
     def forward_error(self, judge: Judge) -> float:
-        """Return the largest distance of an end; infinite for another number of pairs."""
         return judge.forward_error(self.pairs)
 
     def keeps_touch(self, wanted: Numbers) -> bool | None:
-        """Whether there is a pair."""
         return bool(self.pairs)
 
 
@@ -109,7 +102,6 @@ class First:
     from_inside: FromInside
 
     def malformed(self, judge: Judge) -> str | None:
-        """Return why t is no parameter of the ray."""
         if self.t is None:
             return None
         if isnan(self.t):
@@ -120,17 +112,14 @@ class First:
         return "first is infinite" if isinf(self.t) and not may_overflow else None
 
     def fault(self, accept: Accept) -> str | None:
-        """Return why t cannot be the first."""
         return first_fault(self.t, accept.inner, accept.outer, self.from_inside, 0.0, inf)
 
     def is_expected(self, wanted: Numbers) -> str | None:
-        """Return why t is not the first end of the wanted list."""
         end = first_end(wanted, self.from_inside)
         t = None if end is None else wanted[end[0]][end[1]]
         return None if self.t == t else f"first is {_null(self.t)}, {_null(t)} expected"
 
     def is_faithful(self, wanted: Numbers, enclosures: Enclosures) -> str | None:
-        """Return why t is none of the two numbers around the first end."""
         end = first_end(wanted, self.from_inside)
         if end is None or self.t is None:
             return self.is_expected(wanted)
@@ -140,7 +129,6 @@ class First:
         return f"{self.t!r} is not one of the two numbers around the exact one, {two}"
 
     def backward_error(self, judge: Judge, measure: Measure) -> float:
-        """Return the least k for which t may be the first."""
         if self.malformed(judge):
             return inf
         t = None if self.t is None else dyadic(self.t)
@@ -171,33 +159,26 @@ class YesNo:
     hit: bool
 
     def malformed(self, judge: Judge) -> str | None:
-        """Return None: nothing can be wrong with the form."""
         return None
 
     def fault(self, accept: Accept) -> str | None:
-        """Return why a yes, or a no, cannot be right."""
         if self.hit:
             return None if accept.outer else "a hit, and the outer list is empty"
         return f"no hit, and the inner list has {accept.inner[0]}" if accept.inner else None
 
     def is_expected(self, wanted: Numbers) -> str | None:
-        """Return why it is not whether the list has a pair."""
         return None if self.hit == bool(wanted) else f"hit is {self.hit}, {bool(wanted)} expected"
 
     def is_faithful(self, wanted: Numbers, enclosures: Enclosures) -> str | None:
-        """Return the same: there is no number in it."""
         return self.is_expected(wanted)
 
     def backward_error(self, judge: Judge, measure: Measure) -> float:
-        """Return the least k for which it may be right."""
         return judge.least_k(measure, lambda inner, outer: bool(outer) if self.hit else not inner)
 
     def forward_error(self, judge: Judge) -> float:
-        """Return 0 where it is right, else infinity."""
         return 0.0 if self.hit == bool(judge.expected) else inf
 
     def keeps_touch(self, wanted: Numbers) -> bool | None:
-        """Whether it is a hit."""
         return self.hit
 
 

@@ -68,7 +68,6 @@ class Judge:
 
     @cached_property
     def exact(self) -> Intervals:
-        """Return the exact list."""
         return trace(self.solid, self.ray).intervals
 
     @cached_property
@@ -96,7 +95,6 @@ class Judge:
 
     @cached_property
     def movable(self) -> Movable:
-        """Return what is to be moved."""
         return Movable(self.solid, self.ray, self.format, self.tolerance)
 
     def moved(self, step: int, measure: Measure, sigma: int) -> Intervals:
@@ -199,7 +197,6 @@ class Judge:
         return max((self.ulps(x, t) for x, t in self._ends(answer)), default=0.0)
 
     def _ends(self, answer: Pairs) -> Iterator[tuple[float, Surd]]:
-        """Yield each endpoint of an answer with the exact one; the lists are equally long."""
         for given, true in zip(answer, self.merged, strict=True):
             yield from zip(given, true, strict=True)
 
@@ -213,7 +210,6 @@ class Judge:
         return enclose(_distance(dyadic(x), t, ulp), self.format).nearest
 
     def holds(self, level: Level, answer: Pairs) -> bool:
-        """Whether an answer is what a level asks for."""
         if self.malformed(answer):
             return False
         match level:

@@ -201,16 +201,13 @@ class Movable:
 
     @cached_property
     def grid(self) -> Grid:
-        """Return the refined grid."""
         return Grid.of(self.solid, self.ray, REFINE, (self.tolerance,))
 
     @cached_property
     def sizes(self) -> dict[Leaf, tuple[int, int]]:
-        """Return (s0, s1) of each leaf."""
         return {leaf: size(leaf, self.grid) for _, leaf in leaves(self.solid)}
 
     def shift(self, leaf: Leaf, k: Step, measure: Measure) -> Shift:
-        """Return how far the faces of a leaf move for this k."""
         s0, s1 = self.sizes[leaf]
         bits = self.format.precision
         d0 = k.times(s0, bits) + self.grid.scalar(self.tolerance)

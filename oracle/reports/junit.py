@@ -17,7 +17,6 @@ SHOWN = 20
 
 
 def junit(certificate: Json) -> str:
-    """Return the certificate as JUnit XML."""
     from junitparser import JUnitXml
 
     xml = JUnitXml(

@@ -20,7 +20,6 @@ STATES = {"granted": "\u2705", "part": "\u2705", "accepted": "\u26a0\ufe0f"}
 
 
 def markdown(certificate: Json) -> str:
-    """Return the certificate as Markdown."""
     found = reading.verdict(certificate)
     lines = [
         f"### {STATES.get(found.state, MARKS['failed'])} {code(reading.subject(certificate))} "
@@ -51,7 +50,6 @@ def code(text: str) -> str:
 
 
 def _runs(text: str) -> list[str]:
-    """Return the runs of back quotes."""
     return "".join(char if char == "`" else " " for char in text).split()
 
 

@@ -36,7 +36,6 @@ def spelled(x: str | float) -> str:
 
 
 def path(points: Iterable[tuple[float, float]], closed: bool = False) -> str:
-    """Return the data of a path through points."""
     steps = " ".join(f"{spelled(x)},{spelled(y)}" for x, y in points)
     return f"M{steps}{'Z' if closed else ''}"
 
@@ -49,7 +48,6 @@ def drawing(height: float, title: str, *children: Element) -> str:
 
 
 def label(x: float, y: float, text: str, kind: str = "label", anchor: str = "start") -> Element:
-    """Return a line of text."""
     return el("text", text=text, x=x, y=y, kind=kind, text_anchor=anchor)
 
 
@@ -82,7 +80,6 @@ class CaseLists:
         return cls(*lists, point=first is not None)
 
     def finite(self, pairs: Pairs | None) -> list[Fraction]:
-        """Return the finite ends of a list."""
         return [x for pair in pairs or () for x in pair if isinstance(x, Fraction)]
 
 
@@ -97,7 +94,6 @@ def _pairs(pairs: Sequence[Sequence[str]]) -> Pairs:
 
 
 def hexed(text: str) -> Number:
-    """Return the number that a hex float spells."""
     x = float.fromhex(text)
     return Fraction(x) if isfinite(x) else x
 
@@ -123,7 +119,6 @@ class Ruler:
         return max(low, min(x, high))
 
     def shows(self, t: Number) -> bool:
-        """Whether t is on the drawing."""
         return GUTTER <= self.x(t) <= WIDTH
 
 

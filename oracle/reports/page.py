@@ -26,7 +26,6 @@ SHOWN = 20
 
 
 def page(certificate: Json) -> str:
-    """Return the certificate as a page."""
     return render(
         "page.html",
         ("page.css",),
@@ -61,7 +60,6 @@ def _verdict(certificate: Json) -> Json:
 
 
 def _moment(began: str | None) -> str:
-    """Return a moment as people write it."""
     return clean((began or "").replace("T", " ").replace("+00:00", " UTC"), 40)
 
 
@@ -141,7 +139,6 @@ def _not_decisive(certificate: Json) -> list[tuple[str, int, list[str]]]:
 
 
 def _made(certificate: Json) -> list[tuple[str, str]]:
-    """Return what it was made with, as terms and values."""
     declared, corpus, tool = (certificate[name] for name in ("subject", "corpus", "tool"))
     made, run, fresh = (certificate[name] for name in ("environment", "run", "fresh"))
     values = {

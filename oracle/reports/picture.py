@@ -60,7 +60,6 @@ def pictures(shown: Json, precision: str) -> list[tuple[str, str]]:
 
 
 def _silence(shown: Json) -> str:
-    """Return what to say in place of the answered intervals."""
     if (shown["reply"] or {}).get("hit") is not None:
         return f"hit: {str(shown['reply']['hit']).lower()}"
     if shown["reply"] is not None:
@@ -133,7 +132,6 @@ def drawn(view: Slice, axis: Ruler, still: bool = False) -> Iterator[Element]:
 
 
 def ray_height(view: Slice) -> float:
-    """Return the pixel at which the ray runs."""
     return TALL / 2 + view.rise * PLOT / (2 * view.half)
 
 

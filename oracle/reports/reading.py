@@ -84,12 +84,10 @@ class Ruling:
 
     @property
     def good(self) -> bool:
-        """Whether the run is one to be content with."""
         return self.state in ("granted", "part", "accepted")
 
 
 def verdict(certificate: Json) -> Ruling:
-    """Return the verdict."""
     what, state = asked(certificate), _state(certificate)
     headline = {
         "granted": f"is granted {what}",
@@ -140,7 +138,6 @@ def surprises(certificate: Json) -> list[str]:
 
 
 def subject(certificate: Json, most: int = SHORT) -> str:
-    """Return the name and version of what was tested."""
     declared = certificate["subject"]
     return clean(f"{declared['name']} {declared['version']}".rstrip(), most)
 
@@ -157,12 +154,10 @@ def failing(certificate: Json) -> list[Json]:
 
 
 def fault(certificate: Json, failed: Json, most: int = 160) -> str:
-    """Return why a row fails what was asked."""
     return clean(failed["faults"][certificate["asked"]["level"]], most)
 
 
 def family_of(id: str) -> str:
-    """Return the family that a row belongs to."""
     return id.partition("/")[0]
 
 
@@ -222,7 +217,6 @@ def _span(low: int, high: int) -> str:
 
 
 def notes(certificate: Json) -> list[str]:
-    """Return what was seen beside the answers."""
     run = certificate["run"]
     restarts = [f"the target was restarted {run['restarts']} times"] if run["restarts"] else []
     return restarts + [clean(note) for note in run["notes"]]

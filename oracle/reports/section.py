@@ -115,7 +115,6 @@ def anchor(leaf: Leaf) -> Vector:
 
 
 def unit(a: Vector) -> Vector:
-    """Return a / |a|; a of any size but zero.."""
     scaled = times(1 / max(map(abs, a)), a)
     return times(1 / norm(scaled), scaled)
 
@@ -296,7 +295,6 @@ def _size(leaf: Leaf, reach: float) -> float:
 
 
 def exact(v: Sequence[float]) -> Exact:
-    """Return a vector in fractions."""
     x, y, z = map(Fraction, v)
     return (x, y, z)
 
