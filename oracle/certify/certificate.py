@@ -32,10 +32,10 @@ from raycert.oracle.certify.verdict import (
     Tally,
     Touches,
     Verdict,
-    Window,
     by_family,
     by_solid,
     severity,
+    window,
 )
 from raycert.oracle.judge.answer import First, YesNo
 from raycert.oracle.judge.levels import MEASURES
@@ -177,7 +177,7 @@ def _solid(group: Group) -> Json:
         "touches": {kind: {"kept": n, "of": of} for kind, (n, of) in touches.kept.items()},
         "windows": {
             level: {
-                what: _window(Window.of(group.grades, level, which))
+                what: window(group.grades, level, which)
                 for which, what in enumerate(("lengths", "directions"))
             }
             for level in LEVELS
@@ -188,10 +188,6 @@ def _solid(group: Group) -> Json:
 def _levels(group: Group) -> Json:
     tallies = {level: group.tally(level) for level in LEVELS}
     return {level: {"granted": t.granted, **asdict(t)} for level, t in tallies.items()}
-
-
-def _window(window: Window | None) -> list[int] | None:
-    return None if window is None else [window.low, window.high]
 
 
 def _family(group: Group, solid: str) -> Json:
@@ -219,7 +215,7 @@ def case_table(grades: Sequence[Grade], level: Level) -> Json:
         return {**asdict(Tally.of(here, level)), "first_failing": failing}
 
     def line(solid: str, row: Row) -> Json:
-        condition = ", ".join(f"{quantity} {relation}" for quantity, relation in row.condition)
+        condition = ", ".join(map(" ".join, row.condition))
         head = {"rows": [row.name], "condition": condition, "pairs": row.pairs}
         return {**head, **state(solid, row.name)}
 
@@ -345,12 +341,9 @@ def _answered(grade: Grade) -> Json:
 
 def _reply(grade: Grade) -> Json | None:
     """Return what was answered instead of a list: a first hit, or a yes or no; else None."""
-    match grade.said:
-        case First(t):
-            return {"first": None if t is None else _real(t)}
-        case YesNo(hit):
-            return {"hit": hit}
-    return None
+    if isinstance(grade.said, First):
+        return {"first": None if grade.said.t is None else _real(grade.said.t)}
+    return {"hit": grade.said.hit} if isinstance(grade.said, YesNo) else None
 
 
 def _pairs(numbers: Iterable[tuple[float, float]] | None) -> list[list[str]] | None:

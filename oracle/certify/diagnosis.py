@@ -41,8 +41,10 @@ def diagnose(grades: Sequence[Grade]) -> list[str]:
     if len(failing) < LEAST:
         return []
     bench, named = Trials([g.row for g in grades], grades[0].judge.format), []
+    sample = failing[:: max(len(failing) // SAMPLE, 1)]
+    ids = {g.row.id for g in sample}
     for fault in FAULTS:
-        if fault.stateful or _plausible(fault, failing):
+        if fault.stateful or _outcomes(fault, sample, ids, 1) is not None:
             agreed, share = explained(fault, level, bench, grades, failing)
             if agreed >= LEAST and share >= SHARE:
                 named.append((fault, agreed))
@@ -62,18 +64,6 @@ def failures(grades: Sequence[Grade]) -> tuple[Level, list[Grade]]:
     if len(gross) >= LEAST:
         return "sound", gross
     return "stable", [g for g in counted if g.fault("sound") or g.fault("stable")]
-
-
-def _plausible(fault: Fault, failing: Sequence[Grade]) -> bool:
-    """Whether a fault may explain the failures, by a sample of them."""
-    step = max(len(failing) // SAMPLE, 1)
-    sample, tracer = failing[::step], fault.make()
-    spare = (1 - SHARE) * len(sample) + 1
-    for g in sample:
-        spare -= not agrees(g, Outcome.of(tracer, g.row, g.judge.format))
-        if spare < 0:
-            return False
-    return True
 
 
 def explained(
@@ -98,10 +88,15 @@ def explained(
     return agreed, agreed / (len(failing) + others)
 
 
-def _outcomes(fault: Fault, grades: Sequence[Grade], failing: set[str]) -> list[Outcome] | None:
-    """Return what a fault answers to all rows; None once it disagrees on too many failures."""
+def _outcomes(
+    fault: Fault, grades: Sequence[Grade], failing: set[str], more: int = 0
+) -> list[Outcome] | None:
+    """Return what a fault answers to all rows; None once it disagrees on too many failures.
+
+    Too many are those that keep the share below SHARE, and `more`.
+    """
     tracer, outcomes = fault.make(), []
-    spare = (1 - SHARE) * len(failing)
+    spare = (1 - SHARE) * len(failing) + more
     for g in grades:
         outcome = Outcome.of(tracer, g.row, g.judge.format)
         outcomes.append(outcome)

@@ -15,6 +15,7 @@ from raycert.cases.accept import Accept, Numbers
 from raycert.cases.levels import LEVELS, Level
 from raycert.cases.protocol import Hello, Reply, convention
 from raycert.cases.row import GoldenRow
+from raycert.oracle.client.dialogue import silence
 from raycert.oracle.client.process import Failure
 from raycert.oracle.judge.answer import Claim, Listed, claim
 from raycert.oracle.judge.levels import MEASURES, Enclosures, Judge, decisive
@@ -81,8 +82,9 @@ def usual(grades: Iterable[Grade]) -> list[Grade]:
 
 def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
     judge = Judge(row.solid, row.ray, hello.format, row.tier, hello.tolerance)
-    said = None if isinstance(outcome, Failure) or _refusal(outcome) else claim(outcome, hello)
-    whole = _refusal(outcome) if said is None else said.malformed(judge)
+    quiet = silence(outcome)
+    said = None if isinstance(outcome, Failure) or quiet else claim(outcome, hello)
+    whole = ": ".join(quiet or ()) if said is None else said.malformed(judge)
     if whole is not None:
         return Grade(row, said, dict.fromkeys(LEVELS, whole), judge, row.decisive)
     assert said is not None
@@ -109,23 +111,13 @@ def deciding(row: GoldenRow, judge: Judge) -> tuple[str, ...]:
     return decisive(judge) if judge.movable.tolerance_is_fine() else finer
 
 
-def _refusal(outcome: Reply | Failure) -> str | None:
-    if isinstance(outcome, Failure):
-        return f"{outcome.kind}: {outcome.detail}"
-    if outcome.unsupported is not None:
-        return f"unsupported: {outcome.unsupported}"
-    return None if outcome.error is None else f"error: {outcome.error}"
-
-
 def _level_fault(
     level: Level, row: GoldenRow, said: Claim, judge: Judge, hello: Hello
 ) -> str | None:
-    match level:
-        case "sound" | "stable":
-            return said.fault(accept(row, judge, level))
-        case "faithful":
-            return said.is_faithful(*by_convention(row, judge, hello))
-    return said.is_expected(by_convention(row, judge, hello)[0])
+    if level in MEASURES:
+        return said.fault(accept(row, judge, level))
+    wanted, around = by_convention(row, judge, hello)
+    return said.is_faithful(wanted, around) if level == "faithful" else said.is_expected(wanted)
 
 
 def accept(row: GoldenRow, judge: Judge, level: Level) -> Accept:

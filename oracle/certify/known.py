@@ -67,21 +67,16 @@ class Expectations:
     def warnings(self) -> list[str]:
         """Return what is not wrong and not good either."""
         bare = [str(entry) for entry in self.entries if not entry.link.strip()]
-        if not bare:
-            return []
         more = f" and {len(bare) - 3} more" if len(bare) > 3 else ""
-        return [f"expected failures without a link: {', '.join(bare[:3])}{more}"]
-
-    def of(self, kind: Kind) -> dict[str, Expectation]:
-        return self._by_kind[kind]
+        return [f"expected failures without a link: {', '.join(bare[:3])}{more}"] if bare else []
 
     @cached_property
-    def _by_kind(self) -> dict[Kind, dict[str, Expectation]]:
-        return {kind: {e.name: e for e in self.entries if e.kind == kind} for kind in KINDS}
+    def by_name(self) -> dict[tuple[Kind, str], Expectation]:
+        return {(entry.kind, entry.name): entry for entry in self.entries}
 
     def about(self, row: GoldenRow) -> Expectation | None:
         """Return the entry about a row: the one for its id before the one for its family."""
-        return self.of("id").get(row.id) or self.of("family").get(row.family)
+        return self.by_name.get(("id", row.id)) or self.by_name.get(("family", row.family))
 
 
 def read(text: str, file: str = "expectations") -> Expectations:
@@ -96,55 +91,45 @@ def read(text: str, file: str = "expectations") -> Expectations:
     listed = form.get("expect", [])
     if not isinstance(listed, list):
         raise BadExpectations(f"{file}: expect is not a list of tables: write [[expect]]")
-    entries: list[Expectation] = []
+    entries: dict[tuple[Kind, str], Expectation] = {}
     for number, table in enumerate(listed, 1):
-        where = f"{file}: entry {number}"
-        entry = _entry(table, where)
-        for earlier, other in enumerate(entries, 1):
-            if (other.kind, other.name) == (entry.kind, entry.name):
-                raise BadExpectations(
-                    f"{where}: {entry.kind} {entry.name!r} is entry {earlier} too"
-                )
-        entries.append(entry)
-    return Expectations(tuple(entries))
+        fault = _fault(table)
+        if fault is None:
+            kind = next(kind for kind in KINDS if kind in table)
+            key = kind, table[kind]
+            if key not in entries:
+                words = table["reason"], table["link"], table.get("level")
+                entries[key] = Expectation(*key, *words)
+                continue
+            fault = f"{kind} {table[kind]!r} is entry {[*entries].index(key) + 1} too"
+        raise BadExpectations(f"{file}: entry {number}: {fault}")
+    return Expectations(tuple(entries.values()))
 
 
-def _entry(table: object, where: str) -> Expectation:
+def _fault(table: Any) -> str | None:
+    """Return what is wrong with an entry by itself; None if nothing is."""
     if not isinstance(table, dict):
-        raise BadExpectations(f"{where}: is not a table: write [[expect]]")
+        return "is not a table: write [[expect]]"
     for name, value in table.items():
         if name not in FIELDS:
-            raise BadExpectations(f"{where}: unknown key {name!r:.40} ({', '.join(FIELDS)})")
+            return f"unknown key {name!r:.40} ({', '.join(FIELDS)})"
         if not isinstance(value, str):
-            raise BadExpectations(f"{where}: {name} is not a string: {value!r:.40}")
+            return f"{name} is not a string: {value!r:.40}"
     named = [kind for kind in KINDS if kind in table]
     if len(named) != 1:
-        raise BadExpectations(f"{where}: has to have exactly one of {', '.join(KINDS)}")
-    kind = named[0]
-    if kind == "convention" and table[kind] not in SOLIDS:
-        known = ", ".join(SOLIDS)
-        raise BadExpectations(f"{where}: convention is not a type of solid ({known})")
-    for name, may_be_empty in (("reason", False), ("link", True), (kind, False)):
+        return f"has to have exactly one of {', '.join(KINDS)}"
+    if table.get("convention", "sphere") not in SOLIDS:
+        return f"convention is not a type of solid ({', '.join(SOLIDS)})"
+    for name in ("reason", "link", *named):
         if name not in table:
-            raise BadExpectations(f"{where}: {name} is missing")
-        if not may_be_empty and not table[name].strip():
-            raise BadExpectations(f"{where}: {name} is empty")
-    return Expectation(
-        kind, table[kind], table["reason"], table["link"], _level(table, kind, where)
-    )
-
-
-def _level(table: dict[str, Any], kind: Kind, where: str) -> Level | None:
-    if "level" not in table:
-        return None
-    if kind == "convention":
-        raise BadExpectations(f"{where}: level is for id and family; a convention has none")
-    for level in LEVELS:
-        if table["level"] == level:
-            return level
-    raise BadExpectations(
-        f"{where}: level is not one of {', '.join(LEVELS)}: {table['level']!r:.40}"
-    )
+            return f"{name} is missing"
+        if name != "link" and not table[name].strip():
+            return f"{name} is empty"
+    if "level" in table and "convention" in table:
+        return "level is for id and family; a convention has none"
+    if table.get("level", LEVELS[0]) not in LEVELS:
+        return f"level is not one of {', '.join(LEVELS)}: {table['level']!r:.40}"
+    return None
 
 
 HEAD = (
@@ -155,18 +140,13 @@ HEAD = (
 
 def write(expectations: Expectations) -> str:
     """Return the TOML text of expectations; reading it gives them back."""
-    return HEAD + "".join(_written(entry) for entry in expectations.entries)
-
-
-def _written(entry: Expectation) -> str:
-    fields: Iterable[tuple[str, str | None]] = (
-        (entry.kind, entry.name),
-        ("level", entry.level),
-        ("reason", entry.reason),
-        ("link", entry.link),
-    )
-    lines = (f"{name} = {_quoted(text)}\n" for name, text in fields if text is not None)
-    return "\n[[expect]]\n" + "".join(lines)
+    lines = [HEAD]
+    for entry in expectations.entries:
+        fields = {entry.kind: entry.name, "level": entry.level}
+        fields |= {"reason": entry.reason, "link": entry.link}
+        lines.append("\n[[expect]]\n")
+        lines += [f"{name} = {_quoted(x)}\n" for name, x in fields.items() if x is not None]
+    return "".join(lines)
 
 
 def _quoted(text: str) -> str:
@@ -253,7 +233,7 @@ def record(
             kept = [e for e in kept if (e.kind, e.name) != ("id", id)]
             kept.append(Expectation("id", id, reason, level=failed))
     for name in run.against:
-        if name not in known_by.of("convention"):
+        if ("convention", name) not in known_by.by_name:
             kept.append(Expectation("convention", name, reason))
     return Expectations(tuple(kept))
 
@@ -278,11 +258,14 @@ class _Run:
         return self.known | {g.row.id: g.row for g in self.grades}
 
     @cached_property
-    def _named(self) -> dict[str, dict[str, list[GoldenRow]]]:
-        families: dict[str, list[GoldenRow]] = {}
+    def _about(self) -> dict[tuple[str, str], list[GoldenRow]]:
+        """Return the rows that an entry of this kind and name is about."""
+        about: dict[tuple[str, str], list[GoldenRow]] = {}
         for row in self.all.values():
-            families.setdefault(row.family, []).append(row)
-        return {"id": {id: [row] for id, row in self.all.items()}, "family": families}
+            values = row.id, row.family, type_of(row.solid)
+            for key in zip(KINDS, values, strict=True):
+                about.setdefault(key, []).append(row)
+        return about
 
     @cached_property
     def failing(self) -> dict[str, Level]:
@@ -309,7 +292,7 @@ class _Run:
                 new.append(f"{id}: fails {failed}, expected to fail from {entry.level} on")
         for name, way in self.against.items():
             text = f"{name}: convention is {way}, not {self.convention}"
-            (met if name in expectations.of("convention") else new).append(text)
+            (met if ("convention", name) in expectations.by_name else new).append(text)
         return met, new + self._undecided()
 
     def _undecided(self) -> list[str]:
@@ -318,39 +301,31 @@ class _Run:
             return ["nothing was tested"]
         lines = []
         for group in by_solid(self.grades):
-            for level in upto(self.level):
-                tally = group.tally(level)
-                if not tally.passed and not tally.failed:
-                    lines.append(f"{group.name}: no row decides {level}")
-                    break
+            tallies = ((level, group.tally(level)) for level in upto(self.level))
+            if level := next((level for level, t in tallies if not t.passed + t.failed), None):
+                lines.append(f"{group.name}: no row decides {level}")
         return lines
 
     def state(self, entry: Expectation) -> tuple[State, str]:
-        if entry.kind == "convention":
-            return self._state_of_convention(entry)
-        about = self._named[entry.kind].get(entry.name, [])
+        about = self._about.get((entry.kind, entry.name), [])
         counted = [row for row in about if row.tier != "range"]
+        whole = all(row.id in self.rows for row in counted)
+        if entry.kind == "convention":
+            if not about:
+                return "unmatched", "no such solid is asked"
+            if entry.name in self.against:
+                return "met", ""
+            return ("passes", f"is {self.convention}") if whole else ("idle", "")
         if not counted:
             tier = "is of the range tier, and part of no level"
             return "unmatched", tier if about else f"no such {entry.kind} is asked"
         failed = [self.failing[row.id] for row in counted if row.id in self.failing]
         if any(entry.level in (None, level) for level in failed):
             return "met", ""
-        if entry.level and LEVELS.index(entry.level) > LEVELS.index(self.level):
-            return "idle", ""
-        if not all(row.id in self.rows for row in counted):
+        if not whole or (entry.level and entry.level not in upto(self.level)):
             return "idle", ""
         if not failed:
             return "passes", f"passes {entry.level or self.level}"
         if not any(entry.covers(level) for level in failed):
             return "idle", ""  # worse than expected: that is among the new failures
         return "passes", f"passes {entry.level}, fails {min(failed, key=LEVELS.index)}"
-
-    def _state_of_convention(self, entry: Expectation) -> tuple[State, str]:
-        if entry.name in self.against:
-            return "met", ""
-        about = [row for row in self.all.values() if type_of(row.solid) == entry.name]
-        if not about:
-            return "unmatched", "no such solid is asked"
-        whole = all(row.id in self.rows or row.tier == "range" for row in about)
-        return ("passes", f"is {self.convention}") if whole else ("idle", "")

@@ -118,8 +118,7 @@ class Result:
 
     def recorded(self, old: Expectations | None = None) -> Expectations:
         """Return the expectations that accept this run; the old ones that hold are kept."""
-        plan, version = self.prepared.plan, self.prepared.corpus.version
-        known = self.prepared.known
+        plan, version, known = self.prepared.plan, self.prepared.corpus.version, self.prepared.known
         return record(self.grades, plan.level, plan.convention, version, old, known)
 
     def form(self, command: Sequence[str], expectations: Json | None = None) -> Json:
@@ -153,11 +152,12 @@ def prepare(plan: Plan) -> Prepared:
 
     Raises `Unusable` (no hello), `BadCorpus`, `NotInCorpus` and `Unsuitable` (no rows).
     """
-    hello = greet(plan.target, plan.limits)
+    hello, fresh = greet(plan.target, plan.limits), tuple[GoldenRow, ...]()
     corpus = read_corpus(hello.precision, plan.golden)
     if not corpus.rows:
         raise Unsuitable(f"there are no rows in {hello.precision} in {plan.golden}")
-    fresh = _fresh(plan, hello)
+    if plan.fresh:
+        fresh = fresh_rows(plan.fresh.seed, plan.fresh.count, hello.format, hello.solids)
     if absent := plan.selection.missing(corpus, fresh):
         raise NotInCorpus(f"not in the corpus: {', '.join(absent)}")
     rows, left = select(corpus, hello, plan.selection, fresh)
@@ -165,12 +165,6 @@ def prepare(plan: Plan) -> Prepared:
         raise Unsuitable(f"nothing to test: the target declares {', '.join(hello.solids)}")
     known = tuple(able((*corpus.rows, *fresh), hello))
     return Prepared(plan, hello, corpus, tuple(rows), left, known)
-
-
-def _fresh(plan: Plan, hello: Hello) -> tuple[GoldenRow, ...]:
-    if plan.fresh is None:
-        return ()
-    return fresh_rows(plan.fresh.seed, plan.fresh.count, hello.format, hello.solids)
 
 
 def certify(plan: Plan, watch: Watch | None = None) -> Result:
@@ -234,8 +228,12 @@ class _Answers:
 
     def add(self, rows: Sequence[GoldenRow]) -> None:
         self._judge(rows, self._ask(rows))
-        if self._prepared.plan.fail_fast and not self.stopped:
-            self._stop_at_a_failure()
+        plan, rest = self._prepared.plan, len(self._prepared.rows) - len(self.grades)
+        failing = (g.row.id for g in self.grades if failed_level(g, plan.level))
+        if plan.fail_fast and not self.stopped and (first := next(failing, None)):
+            self.stopped = rest > 0
+            note = f"ended early, at {first}, the first row that fails: {rest} not asked"
+            self.notes.append(note)
 
     def _ask(self, rows: Sequence[GoldenRow]) -> dict[str, Outcome]:
         plan, done = self._prepared.plan, 0
@@ -266,12 +264,3 @@ class _Answers:
                     advance()
             except KeyboardInterrupt:
                 self.stopped = True
-
-    def _stop_at_a_failure(self) -> None:
-        level, rest = self._prepared.plan.level, len(self._prepared.rows) - len(self.grades)
-        failing = (g.row.id for g in self.grades if failed_level(g, level))
-        if first := next(failing, None):
-            self.stopped = rest > 0
-            self.notes.append(
-                f"ended early, at {first}, the first row that fails: {rest} not asked"
-            )

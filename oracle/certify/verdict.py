@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 from math import frexp
 
 from raycert.cases.levels import LEVELS, Level, upto
@@ -82,25 +83,19 @@ USUAL = 64
 """Lengths within 2^+-64 are usual; a range row of usual lengths is there for its direction."""
 
 
-@dataclass(frozen=True, slots=True)
-class Window:
-    """The widest range of scales 2^low..2^high around 1 in which a level holds."""
+def window(grades: Iterable[Grade], level: Level, which: int) -> list[int] | None:
+    """Return [low, high]: 2^low..2^high is the widest range of scales in which a level holds.
 
-    low: int
-    high: int
-
-    @classmethod
-    def of(cls, grades: Iterable[Grade], level: Level, which: int) -> Window | None:
-        """Return the window of lengths (which = 0) or of directions (1); None without such rows."""
-        rows = [(scales(g.row), g.fault(level) is None) for g in grades if g.row.tier == "range"]
-        along = [(s[which], ok) for s, ok in rows if (abs(s[0]) <= USUAL) == bool(which)]
-        if not along:
-            return None
-        good = [s for s, ok in along if ok]
-        bad_low = max((s for s, ok in along if not ok and s < 0), default=-10000)
-        bad_high = min((s for s, ok in along if not ok and s >= 0), default=10000)
-        inside = [0, *(s for s in good if bad_low < s < bad_high)]
-        return cls(min(inside), max(inside))
+    Of lengths (which = 0) or of directions (1); None without such rows.
+    """
+    rows = [(scales(g.row), g.fault(level) is None) for g in grades if g.row.tier == "range"]
+    along = [(s[which], ok) for s, ok in rows if (abs(s[0]) <= USUAL) == bool(which)]
+    if not along:
+        return None
+    bad_low = max((s for s, ok in along if not ok and s < 0), default=-10000)
+    bad_high = min((s for s, ok in along if not ok and s >= 0), default=10000)
+    inside = [0, *(s for s, ok in along if ok and bad_low < s < bad_high)]
+    return [min(inside), max(inside)]
 
 
 def scales(row: GoldenRow) -> tuple[int, int]:
@@ -126,12 +121,8 @@ class Group:
 
     def granted(self) -> Level | None:
         """Return the highest level granted, with all the levels below it, or None."""
-        best: Level | None = None
-        for level in LEVELS:
-            if not self.tally(level).granted:
-                break
-            best = level
-        return best
+        held = list(takewhile(lambda level: self.tally(level).granted, LEVELS))
+        return held[-1] if held else None
 
     def worst(self) -> Grade:
         """Return the grade to look at first: the lowest level failed, then k, then ulps."""
@@ -174,18 +165,16 @@ def verdict(grades: Sequence[Grade], level: Level, wanted: str) -> Verdict:
         return Verdict(False, ("nothing was tested",))
     reasons = []
     for group in by_solid(grades):
-        for lower in upto(level):
-            tally = group.tally(lower)
-            if not tally.granted:
-                reasons.append(_refusal(group, lower, tally))
-                break
+        if lowest := next((low for low in upto(level) if not group.tally(low).granted), None):
+            reasons.append(_refusal(group, lowest))
         touches = Touches.of(group.grades)
         if not touches.follows(wanted):
             reasons.append(f"{group.name}: convention is {touches.name}, not {wanted}")
     return Verdict(not reasons, tuple(reasons))
 
 
-def _refusal(group: Group, level: Level, tally: Tally) -> str:
+def _refusal(group: Group, level: Level) -> str:
+    tally = group.tally(level)
     if not tally.failed:
         return f"{group.name}: no row decides {level}"
     families = by_family(g for g in usual(group.grades) if g.fault(level))

@@ -12,7 +12,7 @@ import shlex
 from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from raycert.cases.model import Ray, Solid
@@ -234,10 +234,7 @@ class PipeDialogue(Dialogue):
             raise Broken(self._wrong_id(reply.id, id, line))
         self._owed.popleft()
         self.last, self._last_id = question, id
-        known = Reply(
-            question.id, reply.intervals, reply.first, reply.hit, reply.unsupported, reply.error
-        )
-        return ((question, known),)
+        return ((question, replace(reply, id=question.id)),)
 
     def _wrong_id(self, subject: str, truth: str, line: bytes) -> Failure:
         detail = f"answered id {subject[:40]!r} where {truth!r} was next"

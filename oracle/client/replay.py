@@ -100,11 +100,7 @@ class Replay:
     """The state of one run."""
 
     def __init__(
-        self,
-        target: Target,
-        questions: Sequence[Question],
-        limits: Limits,
-        on_progress: Progress,
+        self, target: Target, questions: Sequence[Question], limits: Limits, on_progress: Progress
     ) -> None:
         self._target, self._questions, self._limits = target, questions, limits
         self._on_progress = on_progress

@@ -12,8 +12,8 @@ import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
-from typing import Any
+from itertools import chain, pairwise
+from typing import Any, Literal
 
 from raycert.cases.model import (
     Cylinder,
@@ -29,7 +29,7 @@ from raycert.cases.model import (
     types,
 )
 from raycert.cases.protocol import Hello, Pairs, Reply
-from raycert.oracle.client.dialogue import Limits, Outcome, Question
+from raycert.oracle.client.dialogue import Limits, Outcome, Question, silence
 from raycert.oracle.client.process import Failure
 
 INF = math.inf
@@ -52,10 +52,6 @@ class Easy:
     @property
     def question(self) -> Question:
         return Question(f"smoke/{self.slug}", self.solid, self.ray)
-
-    @property
-    def speed(self) -> float:
-        return math.hypot(*self.ray.direction)
 
 
 def easy(hello: Hello) -> tuple[Easy, ...]:
@@ -144,14 +140,15 @@ def adapter_faults(asked: Sequence[Easy], outcomes: Mapping[str, Outcome]) -> li
 
     A way to fail is named where more than half of the cases fail in it.
     """
-    given = [outcomes[case.question.id] for case in asked if case.question.id in outcomes]
-    broken = [outcome for outcome in given if isinstance(outcome, Failure)]
+    given = [(case, outcomes.get(case.question.id)) for case in asked]
+    broken = [outcome for _, outcome in given if isinstance(outcome, Failure)]
     if 2 * len(broken) > len(asked):
         return _of_failures(broken)
-    refused = [text for outcome in given if (text := _refusal(outcome))]
+    replies = [(case, outcome) for case, outcome in given if isinstance(outcome, Reply)]
+    refused = [text for _, reply in replies if (text := reply.unsupported or reply.error)]
     if 2 * len(refused) > len(asked):
         return [f"It answers most easy cases with {refused[0]!r}. {DECLARE}"]
-    compared = (_compared(case, outcomes.get(case.question.id)) for case in asked)
+    compared = (_compared(case, reply) for case, reply in replies if silence(reply) is None)
     return _of_answers([pair for pair in compared if pair is not None])
 
 
@@ -161,12 +158,6 @@ FLUSH = (
     "C++: std::endl; Java: System.out.flush(); Rust: stdout().flush())"
 )
 SHAPE = 'the form is {"id": "...", "intervals": [[enter, leave], ...]}, [] for a miss'
-
-
-def _refusal(outcome: Outcome) -> str | None:
-    if isinstance(outcome, Failure):
-        return None
-    return outcome.unsupported or outcome.error
 
 
 def _of_failures(broken: Sequence[Failure]) -> list[str]:
@@ -221,68 +212,57 @@ def _of_bad_line(failure: Failure) -> str:
     return f"Its answers have not the form that its hello promises: {failure.detail}; {SHAPE}."
 
 
-Misreading = Callable[[Easy], Pairs | None]
-
-
-def _compared(case: Easy, outcome: Outcome | None) -> tuple[Easy, Pairs] | None:
+def _compared(case: Easy, reply: Reply) -> tuple[Easy, Pairs] | None:
     """Return a case and its answer, both in the form that was asked for; None if there is none.
 
     A first hit t becomes the list [(t, t)], and a yes the list [(0, 0)].
     """
-    if not isinstance(outcome, Reply) or _refusal(outcome) is not None:
-        return None
-    if outcome.intervals is not None:
-        return case, outcome.intervals
-    if outcome.hit is not None:
-        return _seen_as(lambda _: 0.0, case), ((0.0, 0.0),) if outcome.hit else ()
+    if reply.intervals is not None:
+        return case, reply.intervals
+    if reply.hit is not None:
+        return _seen_as(lambda _: 0.0, case), ((0.0, 0.0),) if reply.hit else ()
     if case.truth and case.truth[0][0] == 0:
         return None  # from inside, what is first depends on the mode
-    first = outcome.first
+    first = reply.first
     return _seen_as(lambda enter: enter, case), () if first is None else ((first, first),)
 
 
 def _seen_as(view: Callable[[float], float], case: Easy) -> Easy:
     """Return the case with one number for each list: a view of where it begins."""
 
-    def seen(truth: Pairs) -> Pairs:
-        return tuple((view(enter), view(enter)) for enter, _ in truth[:1])
+    def seen(truth: Pairs | None) -> Any:
+        return truth and tuple((view(enter), view(enter)) for enter, _ in truth[:1])
 
-    halved = None if case.halved is None else seen(case.halved)
-    doubled = None if case.doubled is None else seen(case.doubled)
-    return replace(case, truth=seen(case.truth), halved=halved, doubled=doubled)
-
-
-def _each(change: Callable[[float, float, float], tuple[float, float]]) -> Misreading:
-    """Make a misreading out of what it does to each pair, knowing |direction|."""
-    return lambda case: tuple(change(enter, leave, case.speed) for enter, leave in case.truth)
+    lists = seen(case.truth), seen(case.halved), seen(case.doubled)
+    return Easy(case.slug, case.solid, case.ray, *lists)
 
 
+Misreading = Callable[[float, float, float], tuple[float, float]] | Literal["halved", "doubled"]
+"""What it makes of each pair, knowing |direction|; or which of the other truths it answers."""
+# fmt: off
 MISREADINGS: tuple[tuple[str, Misreading], ...] = (
-    (
-        "Its answers are t * |direction|: distances, or the direction was normalised. t is in "
-        "units of the direction as it is given, so divide by |direction|.",
-        _each(lambda a, b, speed: (a * speed, b * speed)),
-    ),
-    (
-        "Its answers are t * |direction|^2: a division by direction . direction is missing.",
-        _each(lambda a, b, speed: (a * speed**2, b * speed**2)),
-    ),
-    (
-        "Its answers are t / |direction|: they are divided by the length once too often.",
-        _each(lambda a, b, speed: (a / speed, b / speed)),
-    ),
-    ("Its answers are t^2: squared parameters.", _each(lambda a, b, _: (a * a, b * b))),
-    ("It has enter and leave swapped: each pair is [enter, leave].", _each(lambda a, b, _: (b, a))),
-    (
-        "Its pairs are [enter, length]: the second number is where the ray leaves.",
-        _each(lambda a, b, _: (a, b - a)),
-    ),
-    (
-        "It takes `radius` as the diameter: its answers are those for half the radius.",
-        lambda case: case.halved,
-    ),
-    ("It doubles `radius`: its answers are those for twice the radius.", lambda case: case.doubled),
+    ("Its answers are t * |direction|: distances, or the direction was normalised. t is in units "
+     "of the direction as it is given, so divide by |direction|.", lambda a, b, v: (a * v, b * v)),
+    ("Its answers are t * |direction|^2: a division by direction . direction is missing.",
+     lambda a, b, v: (a * v**2, b * v**2)),
+    ("Its answers are t / |direction|: they are divided by the length once too often.",
+     lambda a, b, v: (a / v, b / v)),
+    ("Its answers are t^2: squared parameters.", lambda a, b, _: (a * a, b * b)),
+    ("It has enter and leave swapped: each pair is [enter, leave].", lambda a, b, _: (b, a)),
+    ("Its pairs are [enter, length]: the second number is where the ray leaves.",
+     lambda a, b, _: (a, b - a)),
+    ("It takes `radius` as the diameter: its answers are those for half the radius.", "halved"),
+    ("It doubles `radius`: its answers are those for twice the radius.", "doubled"),
 )
+# fmt: on
+
+
+def _misreads(case: Easy, misreading: Misreading) -> Pairs | None:
+    """Return what a misreading answers to a case; None where the case does not tell."""
+    if isinstance(misreading, str):
+        return case.halved if misreading == "halved" else case.doubled
+    speed = math.hypot(*case.ray.direction)
+    return tuple(misreading(enter, leave, speed) for enter, leave in case.truth)
 
 
 def _of_answers(answers: Sequence[tuple[Easy, Pairs]]) -> list[str]:
@@ -321,20 +301,16 @@ def _misread(answers: Sequence[tuple[Easy, Pairs]], wrong: int) -> Iterator[str]
         tells = [
             _close(answer, subject)
             for case, answer in answers
-            if (subject := misreading(case)) is not None and not _close(subject, case.truth)
+            if (subject := _misreads(case, misreading)) is not None
+            and not _close(subject, case.truth)
         ]
         if sum(tells) >= 3 and 2 * sum(tells) > wrong and 5 * sum(tells) >= 4 * len(tells):
             yield text
 
 
-def _close(subject: Pairs, truth: Pairs | None) -> bool:
+def _close(subject: Pairs, truth: Pairs) -> bool:
     """Whether two lists agree to about five digits."""
-    return (
-        truth is not None
-        and len(subject) == len(truth)
-        and all(
-            math.isclose(a, b, rel_tol=1e-5, abs_tol=1e-6)
-            for pair, other in zip(subject, truth, strict=True)
-            for a, b in zip(pair, other, strict=True)
-        )
+    ends, others = chain(*subject), chain(*truth)
+    return len(subject) == len(truth) and all(
+        math.isclose(a, b, rel_tol=1e-5, abs_tol=1e-6) for a, b in zip(ends, others, strict=True)
     )

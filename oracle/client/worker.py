@@ -35,13 +35,15 @@ from array import array
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
+from itertools import islice
 from pathlib import Path
 from typing import BinaryIO, SupportsFloat
 
 from raycert.cases.formats import Format
-from raycert.cases.model import SOLIDS, TYPE_NAMES, Ray, Solid, Tree
+from raycert.cases.model import SOLIDS, Ray, Solid, Tree, nodes, type_of
 from raycert.cases.numbers import leaf_numbers
 from raycert.cases.protocol import VERSION, BadLine, Hello, Pairs, Reply, read_hello, write_hello
+from raycert.oracle.client.dialogue import silence
 from raycert.oracle.client.inprocess import read_batch
 from raycert.oracle.client.process import Failure
 
@@ -97,9 +99,7 @@ def _private_pipes() -> tuple[BinaryIO, BinaryIO]:
 
 
 def _answer(batch: Iterable[tuple[Solid, Ray]], loaded: Loaded, answers: BinaryIO) -> None:
-    texts: list[str] = []
-    length = 0
-    sent = time.monotonic()
+    texts, length, sent = list[str](), 0, time.monotonic()
     for solid, ray in batch:
         text = _write(loaded(solid, ray))
         texts.append(text)
@@ -114,12 +114,10 @@ def _answer(batch: Iterable[tuple[Solid, Ray]], loaded: Loaded, answers: BinaryI
 def _write(outcome: Reply | Failure) -> str:
     if isinstance(outcome, Failure):
         return json.dumps({"bad": outcome.detail})
-    if outcome.intervals is not None:
-        return json.dumps(outcome.intervals)
-    for name in ("error", "unsupported"):
-        if (text := getattr(outcome, name)) is not None:
-            return json.dumps({name: text})
-    return json.dumps(outcome.first if outcome.hit is None else outcome.hit)
+    if quiet := silence(outcome):
+        return json.dumps(dict([quiet]))
+    told = (outcome.intervals, outcome.hit, outcome.first)
+    return json.dumps(next((value for value in told if value is not None), None))
 
 
 def _send(answers: BinaryIO, line: str) -> None:
@@ -237,18 +235,13 @@ def _hello(library: ctypes.CDLL, path: str) -> Hello:
 def flat(solid: Solid) -> tuple[array[int], array[float]]:
     """Return a solid in prefix order: its codes, each tree's followed by its count; its numbers."""
     words, numbers = array("i"), array("d")
-    _flatten(solid, words, numbers)
+    for node in nodes(solid):
+        words.append(CODES[type_of(node)])
+        if isinstance(node, Tree):
+            words.append(len(node.of))
+        else:
+            numbers.extend(leaf_numbers(node))
     return words, numbers
-
-
-def _flatten(solid: Solid, words: array[int], numbers: array[float]) -> None:
-    words.append(CODES[TYPE_NAMES[type(solid)]])
-    if isinstance(solid, Tree):
-        words.append(len(solid.of))
-        for part in solid.of:
-            _flatten(part, words, numbers)
-        return
-    numbers.extend(leaf_numbers(solid))
 
 
 class Library:
@@ -285,17 +278,12 @@ class Library:
 
     def _call(self, words: array[int], numbers: array[float], ray: Ray) -> int:
         """Call the function; return how many pairs there are. What it did not write is NaN."""
-        origin, direction = array("d", ray.origin), array("d", ray.direction)
         self._out[:] = self._blank
+        arrays = words, numbers, array("d", ray.origin), array("d", ray.direction), self._out
+        codes, reals, origin, direction, out = (each.buffer_info()[0] for each in arrays)
+        sizes = len(words), len(numbers)
         count: int = self._function(
-            words.buffer_info()[0],
-            len(words),
-            numbers.buffer_info()[0],
-            len(numbers),
-            origin.buffer_info()[0],
-            direction.buffer_info()[0],
-            self._out.buffer_info()[0],
-            self._room,
+            codes, sizes[0], reals, sizes[1], origin, direction, out, self._room
         )
         if count == -1:
             raise NotImplementedError("raycert_intersect returned -1")
@@ -354,24 +342,19 @@ def read(value: object, hello: Hello) -> Reply:
 def _pairs(value: object, fmt: Format) -> Pairs:
     if isinstance(value, str | bytes | dict) or not hasattr(value, "__iter__"):
         raise NoAnswer(f"{in_words(value)}, and not a list of pairs (an empty one is a miss)")
-    pairs: list[tuple[float, float]] = []
-    for pair in value:
-        if len(pairs) == MOST:
-            raise NoAnswer(f"more than {MOST} intervals")
-        pairs.append(_pair(pair, fmt))
-    return tuple(pairs)
+    pairs = tuple([_pair(pair, fmt) for pair in islice(value, MOST + 1)])
+    if len(pairs) > MOST:
+        raise NoAnswer(f"more than {MOST} intervals")
+    return pairs
 
 
 def _pair(pair: object, fmt: Format) -> tuple[float, float]:
     if isinstance(pair, str | bytes | dict | set) or not hasattr(pair, "__iter__"):
         raise NoAnswer(f"an interval that is {in_words(pair)}, and not a pair of numbers")
-    ends: list[float] = []
-    for end in pair:
-        if len(ends) == 2:
-            raise NoAnswer(f"an interval of more than two numbers: {in_words(pair)}")
-        ends.append(math.inf if end is None else number(end, fmt))
+    ends = [math.inf if end is None else number(end, fmt) for end in islice(pair, 3)]
     if len(ends) != 2:
-        raise NoAnswer(f"an interval that has not two numbers: {in_words(pair)}")
+        what = "of more than two" if len(ends) > 2 else "that has not two"
+        raise NoAnswer(f"an interval {what} numbers: {in_words(pair)}")
     return ends[0], ends[1]
 
 

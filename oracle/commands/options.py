@@ -225,23 +225,12 @@ def counting(verb: str, total: int | None = None) -> Iterator[Callable[..., None
     if not sys.stderr.isatty():
         yield lambda n=1: None
         return
+    from rich import progress
     from rich.console import Console
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TextColumn,
-        TimeElapsedColumn,
-        TimeRemainingColumn,
-    )
 
-    columns = [
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TimeRemainingColumn(),
-    ]
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    done = progress.BarColumn(), progress.MofNCompleteColumn()
+    clocks = progress.TimeElapsedColumn(), progress.TimeRemainingColumn()
+    columns = "{task.description}", *done, *clocks
+    with progress.Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(verb, total=total)
         yield lambda n=1: bar.advance(task, n)

@@ -83,16 +83,10 @@ class FamilyTest(pytest.Function):
     @classmethod
     def of(cls, parent: pytest.Collector, name: str, campaign: Campaign) -> FamilyTest:
         """Return the test of a family; with subtests where this pytest has them."""
-        has_subtests = parent.config.pluginmanager.hasplugin("subtests")
-
-        def each_in_a_subtest(subtests: Any) -> None:
-            campaign.check(name, subtests)
-
-        def all_in_one() -> None:
-            campaign.check(name, None)
-
-        call = each_in_a_subtest if has_subtests else all_in_one
-        test: FamilyTest = cls.from_parent(parent, name=name, callobj=call)
+        calls: list[Any] = [lambda: campaign.check(name, None)]
+        if parent.config.pluginmanager.hasplugin("subtests"):
+            calls = [lambda subtests: campaign.check(name, subtests)]
+        test: FamilyTest = cls.from_parent(parent, name=name, callobj=calls[0])
         test.campaign = campaign
         return test
 
@@ -107,7 +101,7 @@ class Campaign:
         """Greet the target. Whatever keeps it from being tested is a `pytest.UsageError`."""
         from raycert.cases.corpus import BadCorpus
         from raycert.cases.protocol import BadLine
-        from raycert.oracle.certify.known import BadExpectations, Expectations
+        from raycert.oracle.certify.known import BadExpectations, Expectations, read
         from raycert.oracle.certify.run import NotInCorpus, Unsuitable, prepare
         from raycert.oracle.client.dialogue import Unusable
 
@@ -118,8 +112,10 @@ class Campaign:
         try:
             self.plan = _plan(session.config)
             if self.file:
-                self.expectations = _read(self.file)
+                self.expectations = read(Path(self.file).read_text("utf-8"), self.file)
             self.prepared: Prepared = prepare(self.plan)
+        except (OSError, UnicodeDecodeError) as error:
+            raise pytest.UsageError(f"--raycert-expect: {error}") from None
         except (BadCorpus, BadLine, BadExpectations, NotInCorpus, Unsuitable, Unusable) as error:
             raise pytest.UsageError(f"raycert: {error}") from None
 
@@ -194,8 +190,7 @@ class Campaign:
         return "\n".join([*lines, f"repeat   {shlex.join((*repeat, '--', *words))}"])
 
     def _check_expectations(self) -> None:
-        grades = [grade for graded in self.grades.values() for grade in graded]
-        matched = self._match(grades)
+        matched = self._match([grade for graded in self.grades.values() for grade in graded])
         whole = [text for text in matched.unexpected_passes if text.startswith("convention ")]
         wrong = [*matched.unmatched, *whole]
         if wrong:
@@ -233,12 +228,3 @@ def _plan(config: pytest.Config) -> Plan:
         golden=Path(option("--raycert-golden") or GOLDEN),
         fresh=None if seed is None else Fresh(seed, option("--raycert-fresh") or COUNT),
     )
-
-
-def _read(file: str) -> Expectations:
-    from raycert.oracle.certify.known import read
-
-    try:
-        return read(Path(file).read_text(encoding="utf-8"), file)
-    except (OSError, UnicodeDecodeError) as error:
-        raise pytest.UsageError(f"--raycert-expect: {error}") from None

@@ -7,43 +7,54 @@ of the run; what a single family took is not measured.
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
 
 from raycert.oracle.reports import reading
-from raycert.oracle.reports.reading import clean, count, intervals
+from raycert.oracle.reports.reading import Json, clean, count
 
-Json = dict[str, Any]
 SHOWN = 20
+
+
+class Test(NamedTuple):
+    """A test passes without a message, fails with a message and a kind, else is skipped."""
+
+    name: str
+    message: str = ""
+    kind: str = ""
+    text: str | None = None
 
 
 def junit(certificate: Json) -> str:
     from junitparser import JUnitXml
 
-    xml = JUnitXml(
-        f"raycert: {reading.subject(certificate)} {reading.verdict(certificate).headline}"
-    )
+    title = f"raycert: {reading.subject(certificate)} {reading.verdict(certificate).headline}"
+    xml, properties = JUnitXml(title), _properties(certificate)
     for solid in certificate["solids"]:
-        xml.add_testsuite(_solid(certificate, solid))
+        xml.add_testsuite(_suite(solid, _families(certificate, solid), properties))
+    untested = Test("not tested", "no row of this type was sent: not declared, or not selected")
     for solid in certificate["not_tested"]["solids"]:
-        xml.add_testsuite(_untested(solid))
-    xml.add_testsuite(_run(certificate))
+        xml.add_testsuite(_suite(solid, [untested]))
+    xml.add_testsuite(_suite("run", _run(certificate)))
     xml.update_statistics()  # type: ignore[no-untyped-call]
     xml.time = certificate["run"]["seconds"]
     text = xml.tostring()  # type: ignore[no-untyped-call]
     return (text.decode() if isinstance(text, bytes) else text) + "\n"
 
 
-def _solid(certificate: Json, solid: str) -> Any:
-    from junitparser import TestSuite
+def _suite(name: str, tests: Iterable[Test], properties: Mapping[str, str] | None = None) -> Any:
+    from junitparser import Failure, Skipped, TestCase, TestSuite
 
-    suite = TestSuite(f"raycert.{solid}")
-    for name, value in _properties(certificate).items():
-        suite.add_property(name, value)
-    failures = reading.by_family(reading.failing(certificate))
-    for family in certificate["families"]:
-        if family["solid"] == solid:
-            found = failures.get((solid, family["family"]), [])
-            suite.add_testcase(_family(certificate, family, found))
+    suite = TestSuite(f"raycert.{name}")
+    for key, value in (properties or {}).items():
+        suite.add_property(key, value)
+    for test in tests:
+        case = TestCase(test.name, suite.name)
+        if test.message:
+            result: Any = Failure(test.message, test.kind) if test.kind else Skipped(test.message)
+            result.text = test.text
+            case.result = [result]
+        suite.add_testcase(case)
     return suite
 
 
@@ -57,71 +68,47 @@ def _properties(certificate: Json) -> dict[str, str]:
     }
 
 
-def _family(certificate: Json, family: Json, failures: list[Json]) -> Any:
-    from junitparser import Failure, Skipped, TestCase
-
-    level, solid = certificate["asked"]["level"], family["solid"]
-    test = TestCase(f"{family['family']} [{level}]", f"raycert.{solid}")
+def _families(certificate: Json, solid: str) -> Iterator[Test]:
+    level = certificate["asked"]["level"]
     expectations = certificate["expectations"] or {"expected": []}
     expected = set(expectations["expected"])
-    new = [failed for failed in failures if failed["id"] not in expected]
-    if new:
-        message = f"{level} fails on {len(new)} of {count(family['rows'], 'row')}"
-        test.result = [_result(Failure(message, level), _listed(certificate, new))]
-    elif failures:
-        reason = f"{count(len(failures), 'expected failure')}: {clean(expectations['file'])}"
-        test.result = [Skipped(reason)]
-    elif not family["levels"][level]["passed"]:
-        test.result = [Skipped(f"no row decides {level}")]
-    return test
-
-
-def _result(result: Any, text: str) -> Any:
-    result.text = text
-    return result
+    failures = reading.by_family(reading.failing(certificate))
+    for family in certificate["families"]:
+        if family["solid"] != solid:
+            continue
+        name = f"{family['family']} [{level}]"
+        found = failures.get((solid, family["family"]), [])
+        new = [failed for failed in found if failed["id"] not in expected]
+        if new:
+            message = f"{level} fails on {len(new)} of {count(family['rows'], 'row')}"
+            yield Test(name, message, level, _listed(certificate, new))
+        elif found:
+            file = clean(expectations["file"])
+            yield Test(name, f"{count(len(found), 'expected failure')}: {file}")
+        else:
+            passed = family["levels"][level]["passed"]
+            yield Test(name, "" if passed else f"no row decides {level}")
 
 
 def _listed(certificate: Json, failures: list[Json]) -> str:
     lines = []
     for failed in failures[:SHOWN]:
-        lines += [
-            failed["id"],
-            f"  {failed['why']}",
-            f"  {reading.fault(certificate, failed)}",
-            f"  answer   {reading.said(failed)}",
-            f"  expected {intervals(failed['expected'])}",
-            f"  repeat   {clean(failed['reproduce'], 1000)}",
-        ]
+        lines += [failed["id"], *(f"  {line}" for line in reading.facts(certificate, failed))]
     if len(failures) > SHOWN:
         lines.append(f"and {len(failures) - SHOWN} more rows, all in the certificate")
     return "\n".join(lines)
 
 
-def _untested(solid: str) -> Any:
-    from junitparser import Skipped, TestCase, TestSuite
-
-    suite = TestSuite(f"raycert.{solid}")
-    test = TestCase("not tested", f"raycert.{solid}")
-    test.result = [Skipped("no row of this type was sent: not declared, or not selected")]
-    suite.add_testcase(test)
-    return suite
-
-
-def _run(certificate: Json) -> Any:
-    """Return what no family can say: the convention, the expectations, an interruption."""
-    from junitparser import Failure, Skipped, TestCase, TestSuite
-
-    suite, found = TestSuite("raycert.run"), reading.verdict(certificate)
-    test = TestCase(f"granted: {reading.asked(certificate)}", "raycert.run")
+def _run(certificate: Json) -> Iterator[Test]:
+    """Yield what no family can say: the convention, the expectations, an interruption."""
+    found = reading.verdict(certificate)
+    name = f"granted: {reading.asked(certificate)}"
     if found.state in ("refused", "interrupted"):
         text = "\n".join((*found.reasons, f"repeat   {clean(certificate['reproduce'], 1000)}"))
-        test.result = [_result(Failure(found.headline, found.state), text)]
-    elif found.state != "granted":
-        test.result = [Skipped(found.headline)]
-    suite.add_testcase(test)
+        yield Test(name, found.headline, found.state, text)
+    else:
+        yield Test(name, "" if found.state == "granted" else found.headline)
     if certificate["expectations"] is not None:
-        test = TestCase("expectations", "raycert.run")
-        if lines := reading.surprises(certificate):
-            test.result = [_result(Failure(lines[0], "expectations"), "\n".join(lines))]
-        suite.add_testcase(test)
-    return suite
+        lines = reading.surprises(certificate)
+        failed = (lines[0], "expectations", "\n".join(lines)) if lines else ()
+        yield Test("expectations", *failed)

@@ -5,14 +5,14 @@ Whatever a client said stands in code spans, where no Markdown and no HTML is re
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from html import escape
-from typing import Any
+from re import findall
 
 from raycert.cases.levels import LEVELS
 from raycert.oracle.reports import reading
-from raycert.oracle.reports.reading import clean, count, intervals
+from raycert.oracle.reports.reading import Json, clean, count, intervals
 
-Json = dict[str, Any]
 FAMILIES, ROWS = 20, 5
 """How many failing families are shown, and how many rows of each."""
 MARKS = {"passed": "\u2705", "failed": "\u274c", "open": "\u2796"}
@@ -43,28 +43,19 @@ def code(text: str) -> str:
     A pipe in a table ends the cell even in code, so it is shown as its double-barred likeness.
     """
     plain = clean(text, 1000).replace("|", "\u00a6")
-    longest = max((len(run) for run in _runs(plain)), default=0)
-    fence = "`" * (longest + 1)
+    fence = "`" * (max(map(len, findall("`+", plain)), default=0) + 1)
     pad = " " if plain.startswith("`") or plain.endswith("`") or not plain.strip() else ""
     return f"{fence}{pad}{plain}{pad}{fence}"
 
 
-def _runs(text: str) -> list[str]:
-    return "".join(char if char == "`" else " " for char in text).split()
-
-
-def _solids(certificate: Json) -> list[str]:
-    lines = [
-        "| solid | " + " | ".join(LEVELS) + " | convention |",
-        "|---|" + "--:|" * len(LEVELS) + "---|",
-    ]
+def _solids(certificate: Json) -> Iterator[str]:
+    yield "| solid | " + " | ".join(LEVELS) + " | convention |"
+    yield "|---|" + "--:|" * len(LEVELS) + "---|"
     for name, solid in certificate["solids"].items():
         cells = [_cell(solid["levels"][level]) for level in LEVELS]
-        lines.append(f"| {name} | " + " | ".join(cells) + f" | {solid['convention']} |")
-    return [
-        *lines,
-        *(f"| {n} |" + " not tested |" * 5 for n in certificate["not_tested"]["solids"]),
-    ]
+        yield f"| {name} | " + " | ".join(cells) + f" | {solid['convention']} |"
+    for name in certificate["not_tested"]["solids"]:
+        yield f"| {name} |" + " not tested |" * 5
 
 
 def _cell(tally: Json) -> str:
@@ -73,51 +64,42 @@ def _cell(tally: Json) -> str:
     return f"{MARKS[reading.mark(tally)]} {text[reading.mark(tally)]}"
 
 
-def _failures(certificate: Json) -> list[str]:
+def _failures(certificate: Json) -> Iterator[str]:
     failures = reading.by_family(reading.failing(certificate))
     if not failures:
-        return []
+        return
     total = sum(map(len, failures.values()))
-    lines = [f"**{count(total, 'row')} fail in {count(len(failures), 'place')}**", ""]
+    yield from (f"**{count(total, 'row')} fail in {count(len(failures), 'place')}**", "")
     for (solid, family), rows in list(failures.items())[:FAMILIES]:
-        lines += [
-            f"<details><summary>{solid}: {family} ({count(len(rows), 'row')})</summary>",
-            "",
-            *(line for failed in rows[:ROWS] for line in _row(certificate, failed)),
-        ]
-        lines += [f"- and {len(rows) - ROWS} more"] if len(rows) > ROWS else []
-        lines += ["", "</details>"]
+        yield f"<details><summary>{solid}: {family} ({count(len(rows), 'row')})</summary>"
+        yield ""
+        for failed in rows[:ROWS]:
+            yield from _row(certificate, failed)
+        if len(rows) > ROWS:
+            yield f"- and {len(rows) - ROWS} more"
+        yield from ("", "</details>")
     if len(failures) > FAMILIES:
-        lines += ["", f"and {len(failures) - FAMILIES} more places, all in the certificate"]
-    return [*lines, ""]
+        yield from ("", f"and {len(failures) - FAMILIES} more places, all in the certificate")
+    yield ""
 
 
-def _row(certificate: Json, failed: Json) -> list[str]:
-    return [
+def _row(certificate: Json, failed: Json) -> tuple[str, ...]:
+    return (
         f"- {code(failed['id'])}: {escape(clean(failed['why']))}",
         f"  - {code(reading.fault(certificate, failed))}",
         f"  - answer {code(reading.said(failed))}, expected {code(intervals(failed['expected']))}",
         f"  - {code(failed['reproduce'])}",
-    ]
+    )
 
 
-def _small(certificate: Json) -> list[str]:
-    """Return what was left out, the notes, and what it was made with."""
+def _small(certificate: Json) -> Iterator[str]:
+    """Yield what was left out, the notes, and what it was made with."""
     corpus, tool = certificate["corpus"], certificate["tool"]
     made = (
         f"{certificate['tested']} rows of corpus {corpus['version']} ({corpus['precision']}), "
         f"{tool['name']} {tool['version']}, {certificate['run']['seconds']:.1f} s"
     )
-    lines = [
-        *reading.left_out(certificate),
-        *reading.windows(certificate),
-        *reading.notes(certificate),
-        f"repeat: {certificate['reproduce']}",
-    ]
-    return [
-        f"<details><summary>{made}</summary>",
-        "",
-        *(f"- {code(x)}" for x in lines),
-        "",
-        "</details>",
-    ]
+    repeat = f"repeat: {certificate['reproduce']}"
+    yield from (f"<details><summary>{made}</summary>", "")
+    yield from (f"- {code(line)}" for line in (*reading.beside(certificate), repeat))
+    yield from ("", "</details>")

@@ -141,9 +141,8 @@ class Lane:
 
 def bars(lists: CaseLists, axis: Ruler, top: float, silence: str) -> Iterator[Element]:
     """Yield the three lines: accepted, exact, answered. `silence` is said where there is no bar."""
-    yield from lanes(
-        (*known(lists), Lane("answered", ((lists.said or (), "said"),), silence)), axis, top
-    )
+    answered = Lane("answered", ((lists.said or (), "said"),), silence)
+    yield from lanes((*known(lists), answered), axis, top)
 
 
 def known(lists: CaseLists) -> tuple[Lane, Lane]:
@@ -171,25 +170,16 @@ def _bar(pairs: Pairs, axis: Ruler, y: float, kind: str) -> Iterator[Element]:
             continue
         left, right = max(left, GUTTER), min(right, WIDTH)
         if right - left < 1.5:
-            middle = (left + right) / 2
-            yield el("path", d=_diamond(middle, y + BAR / 2), kind=kind)
-        else:
-            yield el("rect", x=left, y=y, width=right - left, height=BAR, kind=kind)
-            yield from _caps(axis, (a, b), y, kind)
+            yield el("path", d=_diamond((left + right) / 2, y + BAR / 2), kind=kind)
+            continue
+        yield el("rect", x=left, y=y, width=right - left, height=BAR, kind=kind)
+        for x in (axis.x(t) for t in (a, b) if axis.shows(t)):  # an end off the drawing runs on
+            yield el("line", x1=x, x2=x, y1=y - 2, y2=y + BAR + 2, kind=f"{kind} cap")
 
 
 def _diamond(x: float, y: float) -> str:
     r = BAR / 2 + 1
     return f"M{x - r:.1f},{y:.1f} {x:.1f},{y - r:.1f} {x + r:.1f},{y:.1f} {x:.1f},{y + r:.1f}Z"
-
-
-def _caps(axis: Ruler, pair: tuple[Number, Number], y: float, kind: str) -> Iterator[Element]:
-    """Yield a stroke at each end that is on the drawing: an end that is not runs on."""
-    for t in pair:
-        if axis.shows(t):
-            yield el(
-                "line", x1=axis.x(t), x2=axis.x(t), y1=y - 2, y2=y + BAR + 2, kind=f"{kind} cap"
-            )
 
 
 def ticks(axis: Ruler, origin: Fraction, unit: Fraction, y: float) -> Iterator[Element]:
@@ -231,30 +221,25 @@ class Close:
         """
         if self.axis.unit * 50 > axis.unit:
             return False
-        seen = 3 * axis.unit
-        if lists.said:
-            alike = lists.point or len(lists.said) == len(lists.exact)
-            return (
-                self.off is not None
-                and abs(self.off) * self.ulp < seen
-                and (alike or abs(self.off) > 1)
-            )
-        ends = lists.finite(lists.exact)
-        return max(ends) - min(ends) < seen
+        seen, ends = 3 * axis.unit, lists.finite(lists.exact)
+        if not lists.said:
+            return max(ends) - min(ends) < seen
+        alike = lists.point or len(lists.said) == len(lists.exact)
+        off = None if self.off is None else abs(self.off)
+        return off is not None and off * self.ulp < seen and (alike or off > 1)
 
 
 def close(lists: CaseLists, fmt: Format) -> Close | None:
     """Return a look at the end that the answer misses most; None where no end is finite."""
-    exact = lists.finite(lists.exact)
-    said = lists.finite(lists.said)
-    best: tuple[Fraction, Fraction, Fraction | None] | None = None
-    for t, answered in _ends(lists, exact, said):
-        far = Fraction(0) if answered is None else abs(answered - t) / ulp(t or answered, fmt)
-        if best is None or far > best[0]:
-            best = (far, t, answered)
+
+    def far(end: tuple[Fraction, Fraction | None]) -> Fraction:
+        t, answered = end
+        return Fraction(0) if answered is None else abs(answered - t) / ulp(t or answered, fmt)
+
+    best = max(_ends(lists), key=far, default=None)
     if best is None:
         return None
-    t, answered = best[1:]
+    t, answered = best
     unit = ulp(t or answered or t, fmt)
     origin = Fraction(fmt.nearest(float(t)))
     off = None if answered is None else (answered - origin) / unit
@@ -265,13 +250,12 @@ def close(lists: CaseLists, fmt: Format) -> Close | None:
     return Close(Ruler(origin, reach * unit * Fraction(26, 10) / Fraction(PLOT)), origin, unit, off)
 
 
-def _ends(
-    lists: CaseLists, exact: list[Fraction], said: list[Fraction]
-) -> Iterator[tuple[Fraction, Fraction | None]]:
+def _ends(lists: CaseLists) -> Iterator[tuple[Fraction, Fraction | None]]:
     """Yield exact ends, each with the answer's, but 0 with 0: 0 has no ulp to speak of.
 
     In order where the lists are as long, else with the nearest; of a first hit only its nearest.
     """
+    exact, said = lists.finite(lists.exact), lists.finite(lists.said)
     if lists.point and said and exact:
         near = min(exact, key=lambda t: abs(t - said[0]))
         if near or said[0]:
@@ -292,7 +276,5 @@ def _nearest(t: Fraction, numbers: list[Fraction]) -> Fraction | None:
 
 def ulp(t: Fraction, fmt: Format) -> Fraction:
     """Return the unit in the last place of the numbers of a format around t."""
-    x = abs(float(t))
-    if not x:
-        return Fraction(2) ** fmt.least
-    return Fraction(2) ** max(frexp(x)[1] - fmt.precision, fmt.least)
+    x = float(t)
+    return Fraction(2) ** (max(frexp(x)[1] - fmt.precision, fmt.least) if x else fmt.least)

@@ -6,6 +6,7 @@ What clients said is cleaned; the template escapes it besides.
 from __future__ import annotations
 
 from base64 import b64encode
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from importlib.resources import files
 from typing import Any
@@ -16,9 +17,8 @@ from raycert.oracle.reports import reading
 from raycert.oracle.reports.junit import junit
 from raycert.oracle.reports.markdown import markdown
 from raycert.oracle.reports.picture import pictures
-from raycert.oracle.reports.reading import clean, count, intervals, number
+from raycert.oracle.reports.reading import Json, clean, count, intervals, number
 
-Json = dict[str, Any]
 LISTED, AT_MOST = 100, 4000
 """How many failing rows of a family are listed, and how many in all."""
 SHOWN = 20
@@ -45,15 +45,10 @@ def page(certificate: Json) -> str:
 
 
 def _verdict(certificate: Json) -> Json:
+    say = ["verdict", "asked", "subject", "likely", "notes", "left_out", "windows"]
     return {
-        "verdict": reading.verdict(certificate),
-        "asked": reading.asked(certificate),
+        **{name: getattr(reading, name)(certificate) for name in say},
         "within": reading.levels_asked(certificate),
-        "subject": reading.subject(certificate),
-        "likely": reading.likely(certificate),
-        "notes": reading.notes(certificate),
-        "left_out": reading.left_out(certificate),
-        "windows": reading.windows(certificate),
         "reproduce": clean(certificate["reproduce"], 2000),
         "began": _moment(certificate["run"]["began"]),
     }
@@ -68,15 +63,12 @@ def _matrix(certificate: Json) -> Json:
     within = reading.levels_asked(certificate)
 
     def fails(family: Json) -> int:
-        return sum(1 for level in within if family["levels"][level]["failed"])
+        return max(int(family["levels"][level]["failed"]) for level in within)
 
-    def share(family: Json) -> float:
-        return -float(max(family["levels"][level]["failed"] for level in within))
-
-    failed = sorted((f for f in certificate["families"] if fails(f)), key=share)
+    families = certificate["families"]
     return {
-        "failed": failed,
-        "held": [f for f in certificate["families"] if not fails(f)],
+        "failed": sorted(filter(fails, families), key=fails, reverse=True),
+        "held": [family for family in families if not fails(family)],
         "number": number,
         "shown": SHOWN,
     }
@@ -130,9 +122,7 @@ def _not_decisive(certificate: Json) -> list[tuple[str, int, list[str]]]:
     found = []
     for level in reading.levels_asked(certificate):
         ids = certificate["not_decisive"].get(level, {"rows": []})["rows"]
-        families: dict[str, int] = {}
-        for id in ids:
-            families[reading.family_of(id)] = families.get(reading.family_of(id), 0) + 1
+        families = Counter(map(reading.family_of, ids))
         if ids:
             found.append((level, len(ids), [f"{name} {n}" for name, n in families.items()]))
     return found

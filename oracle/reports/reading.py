@@ -157,6 +157,17 @@ def fault(certificate: Json, failed: Json, most: int = 160) -> str:
     return clean(failed["faults"][certificate["asked"]["level"]], most)
 
 
+def facts(certificate: Json, failed: Json) -> tuple[str, str, str, str, str]:
+    """Return why a row is there, its fault, what is answered, expected, and how to repeat it."""
+    return (
+        clean(failed["why"]),
+        fault(certificate, failed),
+        f"answer   {said(failed)}",
+        f"expected {intervals(failed['expected'])}",
+        f"repeat   {clean(failed['reproduce'], 2000)}",
+    )
+
+
 def family_of(id: str) -> str:
     return id.partition("/")[0]
 
@@ -227,31 +238,22 @@ def likely(certificate: Json) -> list[str]:
     return [clean(line) for line in certificate["run"]["diagnosis"]]
 
 
+def beside(certificate: Json, note: str = "") -> list[str]:
+    """Return what is to be known beside the verdict: what is left out, windows, notes."""
+    said = [note + line for line in notes(certificate)]
+    return [*left_out(certificate), *windows(certificate), *said]
+
+
 # Is it a certificate at all?
 
+OBJECTS = "standing asked subject corpus tool environment run not_tested not_decisive solids table"
 FIELDS: dict[str, type | tuple[type, ...]] = {
-    "granted": bool,
-    "passed": bool,
-    "accepted": bool,
-    "standing": dict,
-    "reasons": list,
-    "asked": dict,
-    "selection": list,
+    **dict.fromkeys(("granted", "passed", "accepted"), bool),
+    **dict.fromkeys(OBJECTS.split(), dict),
+    **dict.fromkeys(("reasons", "selection", "families", "worst", "failures"), list),
     "shard": (str, type(None)),
-    "subject": dict,
-    "corpus": dict,
-    "tool": dict,
-    "environment": dict,
-    "run": dict,
-    "tested": int,
-    "not_tested": dict,
-    "not_decisive": dict,
-    "solids": dict,
-    "families": list,
-    "table": dict,
-    "worst": list,
     "expectations": (dict, type(None)),
-    "failures": list,
+    "tested": int,
     "reproduce": str,
 }
 

@@ -15,13 +15,12 @@ that does not move in a view is its start alone.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
 
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import (
-    FIELDS,
     Cylinder,
     HalfSpace,
     InfiniteCylinder,
@@ -35,8 +34,11 @@ from raycert.cases.model import (
     Vector,
     leaves,
     map_leaves,
+    points,
+    radius,
+    remade,
 )
-from raycert.cases.vectors import along, cross, dot, minus, norm, times
+from raycert.cases.vectors import along, cross, dot, minus, norm, plus, times
 from raycert.oracle.exact.intervals import expected
 from raycert.oracle.exact.trace import trace
 
@@ -68,7 +70,7 @@ def planes(leaf: Leaf, ahead: Vector) -> list[ViewPlane]:
     distance = dot(leaf.p, unit(common))
     if abs(distance) <= OFF_AXIS * leaf.radius:
         return views
-    return [crosswise(leaf, ahead), views[-1]]
+    return [*crosswise(leaf, ahead), views[-1]]
 
 
 def lengthwise(leaf: Leaf, ahead: Vector) -> list[ViewPlane]:
@@ -89,16 +91,12 @@ def lengthwise(leaf: Leaf, ahead: Vector) -> list[ViewPlane]:
     return [plane, replace(plane, aside=aside, name="The ray, seen before a cut along the axis")]
 
 
-def crosswise(leaf: Leaf, ahead: Vector) -> ViewPlane:
+def crosswise(leaf: Leaf, ahead: Vector) -> list[ViewPlane]:
     """Return the plane of the ray that is square to its best plane along the axis."""
     middle, up = anchor(leaf), lengthwise(leaf, ahead)[0].up
     common = cross(ahead, up)
     towards = times(-1.0 if dot(middle, common) < 0 else 1.0, common)
-    return ViewPlane(towards, "The plane of the ray that cuts across the axis")
-
-
-def _crosswise(leaf: Leaf, ahead: Vector) -> list[ViewPlane]:
-    return [crosswise(leaf, ahead)]
+    return [ViewPlane(towards, "The plane of the ray that cuts across the axis")]
 
 
 def anchor(leaf: Leaf) -> Vector:
@@ -110,11 +108,11 @@ def anchor(leaf: Leaf) -> Vector:
             return times(dot(leaf.point, unit(leaf.normal)), unit(leaf.normal))
     w = minus(leaf.q, leaf.p)
     share = max(0.0, min(-dot(leaf.p, unit(w)) / norm(w), 1.0))
-    x, y, z = (a + share * b for a, b in zip(leaf.p, w, strict=True))
-    return (x, y, z)
+    return along(leaf.p, share, w)
 
 
 def unit(a: Vector) -> Vector:
+    """Return a / |a|, a not zero; in these steps: where a ray lies in a face, a rounding shows."""
     scaled = times(1 / max(map(abs, a)), a)
     return times(1 / norm(scaled), scaled)
 
@@ -144,9 +142,6 @@ MANY = 12
 FARTHEST = 40
 """A solid that is behind the start by more than this times its size is out of the picture."""
 
-POINTS = ("center", "point", "p", "q")
-"""The fields of leaves that are places."""
-
 Spans = tuple[tuple[float, float], ...]
 Choose = Callable[[Leaf, Vector], list[ViewPlane]]
 """From a leaf and the direction of the ray to the planes to look in, the best first."""
@@ -175,12 +170,9 @@ class Slice:
 
     def across(self, solid: Solid, height: float) -> Spans:
         """Return where a line parallel to the ray is in a solid, within the picture."""
-        start = [
-            -self.half * e + height * u + a
-            for e, u, a in zip(self.ahead, self.plane.up, self.plane.aside, strict=True)
-        ]
-        x, y, z = start
-        found = expected(trace(solid, Ray((x, y, z), self.ahead)).intervals, BINARY64)[1]
+        start = along(times(-self.half, self.ahead), height, self.plane.up)
+        ray = Ray(plus(start, self.plane.aside), self.ahead)
+        found = expected(trace(solid, ray).intervals, BINARY64)[1]
         width = 2 * self.half
         return tuple((a - self.half, min(b, width) - self.half) for a, b in found if a < width)
 
@@ -230,52 +222,40 @@ def section_of(
     solid: Solid, origin: Exact, direction: Exact, ends: Sequence[Fraction], choose: Choose
 ) -> Slice | None:
     """Return what to draw of an exact ray; `choose` tells in which planes to look."""
-    try:
-        return _section(solid, origin, direction, ends, choose)
-    except (Refused, OverflowError, ZeroDivisionError):
-        return None
-
-
-def _section(
-    solid: Solid, origin: Exact, direction: Exact, ends: Sequence[Fraction], choose: Choose
-) -> Slice | None:
-    leaf = pivot(solid)
-    middle = (min(ends) + max(ends)) / 2 if ends else _closest(leaf, origin, direction)
-    here = along(origin, middle, direction)
-    scale = _scale(leaf, here)
-    near = _moved(solid, here, scale)
     if not any(direction):
         return None
-    fast = max(_bits(x) for x in direction if x)
-    v = _vector(x / Fraction(2) ** fast for x in direction)
-    length = norm(v)
-    speed = Fraction(length) * Fraction(2) ** fast * scale
-    ahead = times(1 / length, v)
-    reach = float(max((abs(t - middle) * speed for t in ends), default=Fraction(0)))
-    leaf = pivot(near)
-    views = [_view(near, ahead, p, leaf, middle, speed, reach) for p in choose(leaf, ahead)]
-    return next((view for view in views if any(view.filled())), views[-1])
+    with suppress(Refused, OverflowError, ZeroDivisionError):
+        leaf = pivot(solid)
+        middle = (min(ends) + max(ends)) / 2 if ends else _closest(leaf, origin, direction)
+        here = along(origin, middle, direction)
+        scale = _scale(leaf, here)
+        near = _moved(solid, here, scale)
+        fast = Fraction(2) ** max(_bits(x) for x in direction if x)
+        v = _vector(x / fast for x in direction)
+        length = norm(v)
+        speed = Fraction(length) * fast * scale
+        ahead = times(1 / length, v)
+        reach = float(max((abs(t - middle) * speed for t in ends), default=Fraction(0)))
+        views = [
+            Slice(near, ahead, plane, middle, speed, *_frame(near, ahead, plane, reach))
+            for plane in choose(pivot(near), ahead)
+        ]
+        return next((view for view in views if any(view.filled())), views[-1])
+    return None
 
 
-def _view(
-    solid: Solid,
-    ahead: Vector,
-    plane: ViewPlane,
-    leaf: Leaf,
-    middle: Fraction,
-    speed: Fraction,
-    reach: float,
-) -> Slice:
-    middle_of = anchor(leaf)
-    height = dot(middle_of, plane.up)
+def _frame(solid: Solid, ahead: Vector, plane: ViewPlane, reach: float) -> tuple[float, float]:
+    """Return half of the width of a picture, and how far its middle is above the ray."""
+    middle = anchor(pivot(solid))
+    height = dot(middle, plane.up)
     size = min(_size(part, reach) for _, part in leaves(solid))
     behind = 0.0
     if not reach:
         size = max(size, abs(height) / 1.5)
-        behind = min(abs(dot(middle_of, ahead)) + size, FARTHEST * size)
+        behind = min(abs(dot(middle, ahead)) + size, FARTHEST * size)
     half = max(1.25 * max(reach, behind), 1.3 * size / ASPECT)
     room = 0.75 * half * ASPECT
-    return Slice(solid, ahead, plane, middle, speed, half, max(-room, min(height, room)))
+    return half, max(-room, min(height, room))
 
 
 def pivot(solid: Solid) -> Leaf:
@@ -288,9 +268,8 @@ def _size(leaf: Leaf, reach: float) -> float:
     """Return the length of a leaf that makes it and the way inside both visible."""
     if isinstance(leaf, HalfSpace):
         return reach or 1.0
-    radius = 0.0 if isinstance(leaf, Slab) else leaf.radius
     height = 0.0 if isinstance(leaf, Sphere) else norm(minus(leaf.q, leaf.p))
-    sizes = sorted(x for x in (radius, height) if x) or [reach or 1.0]
+    sizes = sorted(x for x in (radius(leaf), height) if x) or [reach or 1.0]
     return next((x for x in sizes if x >= 0.2 * reach), sizes[-1])
 
 
@@ -306,7 +285,7 @@ def _closest(leaf: Leaf, origin: Exact, direction: Exact) -> Fraction:
         return Fraction(0)
     if isinstance(leaf, InfiniteCylinder):
         return max(_beside(leaf, origin, direction), Fraction(0))
-    aims = _points(leaf)
+    aims = [exact(point) for point in points(leaf)]
     x, y, z = (sum(xs, Fraction(0)) / len(aims) for xs in zip(*aims, strict=True))
     way = dot(minus((x, y, z), origin), direction)
     return max(way / square, Fraction(0))
@@ -322,14 +301,10 @@ def _beside(leaf: InfiniteCylinder, origin: Exact, direction: Exact) -> Fraction
     return -dot(v, y) / square
 
 
-def _points(leaf: Leaf) -> list[Exact]:
-    return [exact(getattr(leaf, name)) for name in FIELDS[type(leaf)] if name in POINTS]
-
-
 def _scale(leaf: Leaf, here: Exact) -> Fraction:
     """Return the power of two that brings a leaf, seen from here, to a size of about 1."""
-    numbers = [abs(x) for point in _points(leaf) for x in minus(point, here)]
-    largest = max(*numbers, Fraction(getattr(leaf, "radius", 0.0)))
+    numbers = [abs(x) for point in points(leaf) for x in minus(exact(point), here)]
+    largest = max(*numbers, Fraction(radius(leaf)))
     return Fraction(2) ** -(_bits(largest) if largest else 0)
 
 
@@ -341,17 +316,10 @@ def _bits(x: Fraction) -> int:
 def _moved(solid: Solid, here: Exact, scale: Fraction) -> Solid:
     """Return the solid as seen from a point, scaled; normals stay as they are."""
 
-    def move(leaf: Leaf) -> Leaf:
-        changed: dict[str, Any] = {
-            name: _vector(scale * x for x in minus(exact(getattr(leaf, name)), here))
-            for name in FIELDS[type(leaf)]
-            if name in POINTS
-        }
-        if hasattr(leaf, "radius"):
-            changed["radius"] = float(Fraction(leaf.radius) * scale)
-        return replace(leaf, **changed)
+    def point(p: Vector) -> Vector:
+        return _vector(scale * x for x in minus(exact(p), here))
 
-    return map_leaves(move, solid)
+    return map_leaves(lambda leaf: remade(leaf, point, lambda r: float(Fraction(r) * scale)), solid)
 
 
 def _vector(numbers: Iterator[Fraction]) -> Vector:
@@ -389,7 +357,7 @@ def _along(solid: Solid, ray: Ray, ends: Sequence[Fraction]) -> View | None:
 
 
 def _across(solid: Solid, ray: Ray, ends: Sequence[Fraction]) -> View | None:
-    section = section_of(solid, exact(ray.origin), exact(ray.direction), ends, _crosswise)
+    section = section_of(solid, exact(ray.origin), exact(ray.direction), ends, crosswise)
     return None if section is None else View("The plane of the ray across the first", section)
 
 
@@ -405,11 +373,8 @@ def _end_on(leaf: Cylinder | InfiniteCylinder, ray: Ray, ends: Sequence[Fraction
         least = min(range(3), key=lambda i: abs(w[i]))
         axis = exact([float(i == least) for i in range(3)])
         across = across if any(across) else along(axis, -w[least] / dot(w, w), w)
-    wall = InfiniteCylinder(leaf.p, leaf.q, leaf.radius)
-
-    section = section_of(
-        wall, exact(ray.origin), across, [Fraction(0)] if still else ends, _crosswise
-    )
+    wall, times = InfiniteCylinder(leaf.p, leaf.q, leaf.radius), [Fraction(0)] if still else ends
+    section = section_of(wall, exact(ray.origin), across, times, crosswise)
     name = "Seen along the axis: the wall is a circle, the ray is ybar + t vbar"
     return None if section is None else View(name, section, still)
 

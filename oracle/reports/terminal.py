@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
-
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from raycert.cases.levels import LEVELS
 from raycert.oracle.reports import reading
-from raycert.oracle.reports.reading import clean, intervals, number
+from raycert.oracle.reports.reading import Json, number
 
-Json = dict[str, Any]
 SHOWN = 8
 """How many failing rows are printed; the certificate has them all."""
 STYLES = {
@@ -28,7 +25,8 @@ def report(certificate: Json, console: Console, out: str | None) -> None:
     """Print a certificate for people. What a client said is printed as text, never as markup."""
     console.print(_solids(certificate))
     console.print(_families(certificate, console.width))
-    for line in _notes(certificate):
+    likely = [f"likely fault: {line}" for line in reading.likely(certificate)]
+    for line in ("", *reading.beside(certificate, "note: "), *likely):
         console.print(Text(line))
     _failures(certificate, console)
     console.print(_verdict(certificate))
@@ -61,8 +59,9 @@ def _level(tally: Json) -> Text:
 
 def _families(certificate: Json, width: int) -> Table:
     table = _table("\nWorst answers (k: backward error, strict and squared; ulps: forward error)")
-    for name, justify in COLUMNS.items():
-        table.add_column(name, justify=justify, no_wrap=True)
+    for name in ("family", "rows", "k", "k sq.", "ulps", "fails", "row"):
+        right = name in ("rows", "k", "k sq.", "ulps")
+        table.add_column(name, justify="right" if right else "left", no_wrap=True)
     names = [family["family"] for family in certificate["families"]]
     room = max(width - max(map(len, names), default=0) - 46, 0)
     last = ""
@@ -81,17 +80,6 @@ def _families(certificate: Json, width: int) -> Table:
     return table
 
 
-COLUMNS: dict[str, Literal["left", "right"]] = {
-    "family": "left",
-    "rows": "right",
-    "k": "right",
-    "k sq.": "right",
-    "ulps": "right",
-    "fails": "left",
-    "row": "left",
-}
-
-
 def _cut(text: str, room: int) -> str:
     return text if len(text) <= room else text[: max(room - 1, 0)] + "\u2026" if room > 8 else ""
 
@@ -103,24 +91,14 @@ def _fails(levels: Json) -> Text:
     return Text("-", "green")
 
 
-def _notes(certificate: Json) -> list[str]:
-    told = [f"note: {note}" for note in reading.notes(certificate)]
-    found = [f"likely fault: {line}" for line in reading.likely(certificate)]
-    return ["", *reading.left_out(certificate), *reading.windows(certificate), *told, *found]
-
-
 def _failures(certificate: Json, console: Console) -> None:
-    found = reading.failing(certificate)
+    found, level = reading.failing(certificate), certificate["asked"]["level"]
     for failed in found[:SHOWN]:
+        why, fault, *rest, repeat = reading.facts(certificate, failed)
         console.print(Text(f"\n{failed['id']}", "bold red"))
-        console.print(Text(f"  {clean(failed['why'])}"))
-        console.print(
-            Text(f"  {certificate['asked']['level']}: {reading.fault(certificate, failed)}")
-        )
-        console.print(Text(f"  answer   {reading.said(failed)}"))
-        console.print(Text(f"  expected {intervals(failed['expected'])}"))
-        repeat = clean(failed["reproduce"], 2000)
-        console.print(Text(f"  repeat   {repeat}"), soft_wrap=True)
+        for line in (why, f"{level}: {fault}", *rest):
+            console.print(Text(f"  {line}"))
+        console.print(Text(f"  {repeat}"), soft_wrap=True)
     if len(found) > SHOWN:
         console.print(f"\nand {len(found) - SHOWN} more rows, all in the certificate")
 

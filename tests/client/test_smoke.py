@@ -24,6 +24,7 @@ from raycert.cases.model import (
     Union,
 )
 from raycert.cases.protocol import Hello, Pairs, Reply
+from raycert.cases.vectors import norm
 from raycert.oracle.client.dialogue import Limits, Outcome
 from raycert.oracle.client.process import Failure
 from raycert.oracle.client.replay import run
@@ -125,9 +126,11 @@ def outcomes(cases: tuple[Easy, ...], answer: Callable[[int, Easy], Pairs]) -> d
 
 
 def scaled(power: int) -> Callable[[int, Easy], Pairs]:
-    return lambda _, case: tuple(
-        (a * case.speed**power, b * case.speed**power) for a, b in case.truth
-    )
+    def times(case: Easy) -> Pairs:
+        k = norm(case.ray.direction) ** power
+        return tuple((a * k, b * k) for a, b in case.truth)
+
+    return lambda _, case: times(case)
 
 
 def each(change: Callable[[float, float], tuple[float, float]]) -> Callable[[int, Easy], Pairs]:
@@ -287,7 +290,7 @@ def first(change: Callable[[Easy], float | None]) -> dict[str, Outcome]:
 def test_a_first_hit_is_compared_with_the_first_of_the_truth():
     assert adapter_faults(CYLINDERS, first(lambda c: c.truth[0][0] if c.truth else None)) == []
     (said,) = adapter_faults(
-        CYLINDERS, first(lambda c: c.truth[0][0] * c.speed if c.truth else None)
+        CYLINDERS, first(lambda c: c.truth[0][0] * norm(c.ray.direction) if c.truth else None)
     )
     assert "distances" in said
     assert "with a miss" in adapter_faults(CYLINDERS, first(lambda _: None))[0]
