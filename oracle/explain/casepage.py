@@ -28,34 +28,32 @@ from raycert.oracle.explain.console import case_lines
 from raycert.oracle.explain.derive import Derivation
 from raycert.oracle.explain.wording import Fact, Note, Table, numbers, shorten
 from raycert.oracle.judge.answer import First, YesNo
-from raycert.oracle.reports.numberline import (
+from raycert.oracle.reports.page import render
+from raycert.oracle.reports.picture import (
+    GAP,
     GUTTER,
     PLOT,
     ROW,
+    TALL,
     WIDTH,
     CaseLists,
     Lane,
     Pairs,
     Ruler,
+    axis_of,
+    base_of,
     drawing,
+    drawn,
     el,
+    guides,
     known,
     label,
     lanes,
+    pointer,
+    ray_height,
     ticks,
     ulp,
     whole,
-)
-from raycert.oracle.reports.page import render
-from raycert.oracle.reports.picture import (
-    GAP,
-    TALL,
-    axis_of,
-    base_of,
-    drawn,
-    guides,
-    pointer,
-    ray_height,
 )
 from raycert.oracle.reports.reading import clean, number
 from raycert.oracle.reports.section import Slice, View, views

@@ -15,7 +15,7 @@ from math import frexp, inf, isinf
 from raycert.cases.accept import Accept, Numbers, Pairs, malformed
 from raycert.cases.formats import BINARY64, Format
 from raycert.cases.levels import LEVELS, Level, Tier
-from raycert.cases.model import Intersection, Ray, Solid, Tree, leaves
+from raycert.cases.model import HalfSpace, Intersection, Ray, Solid, Tree, leaves
 from raycert.oracle.exact.intervals import Interval, Intervals, contains, expected, meets
 from raycert.oracle.exact.surd import INFINITY, Surd, dyadic, enclose, nearest, sign_1
 from raycert.oracle.exact.trace import trace
@@ -255,7 +255,7 @@ def decisive(judge: Judge) -> tuple[Level, ...]:
 
 def _decides(judge: Judge, level: Level) -> bool:
     movable, measure, step = judge.movable, MEASURES[level], Step.at(LIMIT)
-    inner, outer = (movable.by_k_but_half_spaces(step, measure, sigma) for sigma in (-1, 1))
+    inner, outer = (movable.by_k(step, measure, sigma, (HalfSpace,)) for sigma in (-1, 1))
     deep, wide = movable.by_constant(-1), movable.by_constant(1)
     return _keeps(judge.exact, deep, inner) and _adds_nothing(judge.exact, wide, outer)
 

@@ -37,6 +37,8 @@ from raycert.cases.model import (
     Sphere,
     Tree,
     leaves,
+    points,
+    radius,
 )
 from raycert.cases.vectors import dot, minus
 from raycert.oracle.exact.grid import Grid, IntVector
@@ -47,6 +49,7 @@ from raycert.oracle.exact.trace import combine
 
 Measure = Literal["strict", "squared"]
 Move = Callable[[Leaf], "Shift"]
+Stay = tuple[type[Leaf], ...]
 REFINE = 128
 """Grid bits below the inputs, whose unit N divides by at most 2^64 and k u by 2^58."""
 
@@ -105,15 +108,11 @@ def norm(x: IntVector) -> int:
 def size(leaf: Leaf, grid: Grid) -> tuple[int, int]:
     """Return (s0, s1), the size of the numbers that meet on a leaf."""
     u, speed = grid.u, norm(grid.v)
-    match leaf:
-        case HalfSpace():
-            point = grid.point(leaf.point)
-            return norm(u) + norm(point) + norm(minus(u, point)), 2 * speed
-        case Sphere():
-            return norm(u) + norm(grid.point(leaf.center)) + grid.scalar(leaf.radius), speed
-    p, q = grid.point(leaf.p), grid.point(leaf.q)
-    radius = 0 if isinstance(leaf, Slab) else grid.scalar(leaf.radius)
-    return norm(u) + norm(p) + norm(q) + radius + norm(minus(u, p)), 2 * speed
+    places, r = [grid.point(place) for place in points(leaf)], radius(leaf)
+    meeting = norm(u) + sum(map(norm, places)) + (grid.scalar(r) if r else 0)
+    if isinstance(leaf, Sphere):
+        return meeting, speed
+    return meeting + norm(minus(u, places[0])), 2 * speed
 
 
 def thinness(leaf: Leaf, grid: Grid) -> int:
@@ -227,15 +226,11 @@ class Movable:
         """Return the move by c: 1/8 of the smaller of radius and thickness, 0 for a half-space."""
         return Shift(thinness(leaf, self.grid) >> 3)
 
-    def by_k(self, k: Step, measure: Measure, sigma: int) -> Intervals:
-        """Return the outer (sigma = 1) or inner (sigma = -1) list of k."""
-        return self._moved(self.solid, sigma, lambda leaf: self.shift(leaf, k, measure))
-
-    def by_k_but_half_spaces(self, k: Step, measure: Measure, sigma: int) -> Intervals:
-        """Return the same with the half-spaces left where they are."""
+    def by_k(self, k: Step, measure: Measure, sigma: int, still: Stay = ()) -> Intervals:
+        """Return the outer (sigma = 1) or inner (sigma = -1) list of k; `still` leaves stay."""
 
         def move(leaf: Leaf) -> Shift:
-            return Shift(0) if isinstance(leaf, HalfSpace) else self.shift(leaf, k, measure)
+            return Shift(0) if isinstance(leaf, still) else self.shift(leaf, k, measure)
 
         return self._moved(self.solid, sigma, move)
 

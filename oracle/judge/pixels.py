@@ -14,7 +14,6 @@ is the least k, as the judge's own bisection finds it, because the measure is mo
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from math import hypot, inf
 
 from raycert.cases.accept import Pairs, malformed
@@ -49,21 +48,12 @@ FEW = 1000
 Answers = Sequence[Pairs]
 
 
-@dataclass(frozen=True, slots=True)
-class PixelRow:
-    """A row of pixels, and the lists answered for it."""
-
-    row: int
-    answers: Answers
-
-
-def row_errors(scene: Scene, given: PixelRow) -> list[float]:
+def row_errors(scene: Scene, row: int, answers: Answers) -> list[float]:
     """Return the strict backward error of each pixel in a row."""
-    seen, solid = frame(scene.camera), scene.solid
+    seen, solid, guess = frame(scene.camera), scene.solid, 0
     errors: list[float] = []
-    guess = 0
-    for column, answer in enumerate(given.answers):
-        ray = pixel_ray(seen, scene.size, column, given.row)
+    for column, answer in enumerate(answers):
+        ray = pixel_ray(seen, scene.size, column, row)
         k, guess = error(solid, ray, answer, guess)
         errors.append(k)
     return errors
@@ -166,10 +156,10 @@ def every_row(scene: Scene, answers: Answers, processes: int = 2) -> Iterator[li
     from multiprocessing import get_context
 
     width, height = scene.size
-    rows = [PixelRow(row, answers[row * width : (row + 1) * width]) for row in range(height)]
+    rows = range(height), [answers[i * width : (i + 1) * width] for i in range(height)]
     work = partial(row_errors, scene)
     if processes < 2 or len(answers) < FEW:
-        yield from map(work, rows)
+        yield from map(work, *rows)
         return
     with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
-        yield from pool.map(work, rows, chunksize=2)
+        yield from pool.map(work, *rows, chunksize=2)

@@ -6,6 +6,5 @@ markdown    the certificate for the summary of a CI job
 junit       the certificate as JUnit XML
 page        the certificate as one HTML page, and the list of all forms
 picture     the pictures of one case
-numberline  intervals over a line of t, exact to the pixel, as SVG
 section     a ray and a solid in a plane: what to look at, from where, and how large
 """

@@ -279,7 +279,7 @@ def test_half_spaces_can_be_left_where_they_are() -> None:
     tree = Intersection((HalfSpace((0, 0, 1), (0, 0, 1)), CAN))
     ray = Ray((0, 0, -3), (0, 0, 1))
     scene, k = Movable(tree, ray, BINARY64), Step.at(60)
-    stays = scene.by_k_but_half_spaces(k, "strict", 1)
+    stays = scene.by_k(k, "strict", 1, (HalfSpace,))
     assert stays[0][1] == trace(tree, ray).intervals[0][1]
     assert stays[0][0] == scene.by_k(k, "strict", 1)[0][0] < trace(tree, ray).intervals[0][0]
 

@@ -15,7 +15,7 @@ from raycert.cases.formats import BINARY32, BINARY64
 from raycert.cases.model import Cylinder, Leaf, Ray, Solid, leaves, type_of
 from raycert.cases.row import GoldenRow
 from raycert.cases.vectors import dot, norm
-from raycert.oracle.reports.numberline import (
+from raycert.oracle.reports.picture import (
     GUTTER,
     MIDDLE,
     PLOT,
@@ -25,10 +25,10 @@ from raycert.oracle.reports.numberline import (
     close,
     drawing,
     el,
+    pictures,
     round_up,
     whole,
 )
-from raycert.oracle.reports.picture import pictures
 from raycert.oracle.reports.section import Slice, section
 
 PIXEL = 1 / PLOT
