@@ -18,9 +18,12 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
+from typing import Any
 
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import (
+    SHAPES,
     Cylinder,
     HalfSpace,
     InfiniteCylinder,
@@ -36,7 +39,6 @@ from raycert.cases.model import (
     map_leaves,
     points,
     radius,
-    remade,
 )
 from raycert.cases.vectors import along, cross, dot, minus, norm, plus, times
 from raycert.oracle.exact.intervals import expected
@@ -316,10 +318,16 @@ def _bits(x: Fraction) -> int:
 def _moved(solid: Solid, here: Exact, scale: Fraction) -> Solid:
     """Return the solid as seen from a point, scaled; normals stay as they are."""
 
-    def point(p: Vector) -> Vector:
-        return _vector(scale * x for x in minus(exact(p), here))
+    def move(leaf: Leaf) -> Leaf:
+        shape, value = SHAPES[type(leaf)], partial(getattr, leaf)
+        changed: dict[str, Any] = {
+            name: _vector(scale * x for x in minus(exact(value(name)), here))
+            for name in shape.points
+        }
+        radii = {name: float(Fraction(value(name)) * scale) for name in shape.lengths}
+        return replace(leaf, **changed, **radii)
 
-    return map_leaves(lambda leaf: remade(leaf, point, lambda r: float(Fraction(r) * scale)), solid)
+    return map_leaves(move, solid)
 
 
 def _vector(numbers: Iterator[Fraction]) -> Vector:
