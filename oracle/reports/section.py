@@ -324,8 +324,8 @@ def _moved(solid: Solid, here: Exact, scale: Fraction) -> Solid:
             name: _vector(scale * x for x in minus(exact(value(name)), here))
             for name in shape.points
         }
-        radii = {name: float(Fraction(value(name)) * scale) for name in shape.lengths}
-        return replace(leaf, **changed, **radii)
+        changed |= {name: float(Fraction(value(name)) * scale) for name in shape.lengths}
+        return replace(leaf, **changed)
 
     return map_leaves(move, solid)
 
