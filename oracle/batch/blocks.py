@@ -49,7 +49,6 @@ class Batch:
 
     @property
     def counts(self) -> Counts:
-        """The number of pairs of each lane."""
         return np.diff(self.offsets)
 
     @property
@@ -57,7 +56,6 @@ class Batch:
         return {"leaves": self.leaves, "lanes": self.lanes}
 
     def pairs(self, lane: int) -> Numbers:
-        """Return the list of one lane."""
         at = slice(self.offsets[lane], self.offsets[lane + 1])
         enter, leave = self.enter[at].tolist(), self.leave[at].tolist()
         return tuple(zip(enter, leave, strict=True))
@@ -101,10 +99,8 @@ def trace_batch(
     tracer = Blocks(solid, fmt, chosen)
     with np.errstate(all="ignore"):
         parts = [tracer.block(u[i : i + block], v[i : i + block]) for i in range(0, len(u), block)]
-    counts, enter, leave = (
-        np.concatenate([np.zeros(n, kind), *(part[i] for part in parts)])
-        for i, (n, kind) in enumerate([(1, np.intp), (0, float), (0, float)])
-    )
+    none = [(np.zeros(1, np.intp), np.zeros(0), np.zeros(0))]  # offsets begin with 0
+    counts, enter, leave = map(np.concatenate, zip(*none, *parts, strict=True))
     reasons = [chosen.reason, *(leaf.reason for leaf in tracer.plans.values())]
     return Batch(
         np.cumsum(counts),
@@ -193,7 +189,6 @@ class Blocks:
 
 
 def tally(rungs: Codes) -> Counts:
-    """Return how often each rung occurs."""
     return np.bincount(rungs, minlength=len(RUNGS))
 
 

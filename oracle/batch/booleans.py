@@ -32,7 +32,6 @@ class Lists:
 
 
 def combine(tree: Tree, parts: list[Lists]) -> Lists:
-    """Return the lists of a Boolean from those of its parts."""
     if len(parts) == 1:
         return parts[0]  # as every one of the operations has it
     lane = np.concatenate([part.lane for part in parts for _ in range(2)])

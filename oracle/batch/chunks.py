@@ -72,18 +72,15 @@ def solve_with(solve: Any, b: Any, k: Any, n: int, keep: Any, at: int) -> None:
 
 
 def write(b: Any, at: int, ends: Any) -> None:
-    """Write a list's five numbers."""
     b[at], b[at + WIDTH], b[at + 2 * WIDTH] = ends[0], ends[1], ends[2]
     b[at + 3 * WIDTH], b[at + 4 * WIDTH] = ends[3], ends[4]
 
 
 def read(b: Any, at: int) -> Any:
-    """Return a list's five numbers."""
     return b[at], b[at + WIDTH], b[at + 2 * WIDTH], b[at + 3 * WIDTH], b[at + 4 * WIDTH]
 
 
 def join(b: Any, n: int) -> None:
-    """Intersect the two lists of each lane."""
     for i in range(n):
         write(b, FIRST + i, joined(read(b, FIRST + i), read(b, SECOND + i)))
 
@@ -135,7 +132,6 @@ def load(b: Any, raw: Any, rays: Any, begin: int, n: int, k: Any) -> None:
 
 
 def screen(b: Any, k: Any, n: int, kind: int, planes: int) -> None:
-    """Run the float64 rung of each face."""
     if kind == 1:
         screen_with(screen_ball, b, k, n, fields(k)[2])
     if kind == 2:

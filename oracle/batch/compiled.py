@@ -140,7 +140,6 @@ def _two_prod_by_fma() -> Any:
 
 
 def leaf_block(plan: LeafPlan, rays: Floats) -> Outcomes:
-    """Return what both fast rungs decide of a block of rays, given as six rows."""
     n = rays.shape[1]
     if plan.reason:
         return Outcomes.unsure(n)

@@ -120,12 +120,10 @@ def _curved(terms: Any, root_w: Any, back: Number, speed: Number) -> Ends:
 
 
 def solve_ball(u: Singles, v: Singles, points: Any, k: Any, back: Number) -> Ends:
-    """Return what is certain of a sphere."""
     return _curved(ball(offset(u, points[0]), v, k[2]), k[4], back, size(v))
 
 
 def solve_wall(u: Singles, v: Singles, points: Any, k: Any, back: Number) -> Ends:
-    """Return what is certain of a tilted cylinder."""
     w, wm, rr, cap, root_w = k
     return _curved(wall(offset(u, points[0]), v, w, wm, rr, cap), root_w, back, size(v))
 

@@ -107,12 +107,10 @@ Bounded2 = tuple[Pair, Number]
 
 
 def cross_plain(a: Singles, b: Singles) -> Singles:
-    """Return a x b in float64."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
 def dot_plain(a: Singles, b: Singles) -> Number:
-    """Return a . b in float64."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
@@ -165,7 +163,6 @@ def square(a: Triple, ea: Number) -> Bounded2:
 
 
 def excess(rr: Pair, aa: Bounded2, qq: Bounded2) -> Bounded2:
-    """Return rr A - Q."""
     first = mul(aa[0], rr)
     bound = less_bound(UU, first[0], rr[0] * aa[1], qq[0][0], qq[1])
     return sub(first, qq[0]), bound * SLACK

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any
 
 import numpy as np
@@ -61,7 +62,6 @@ class Outcomes:
 
     @classmethod
     def unsure(cls, n: int) -> Outcomes:
-        """Return n lanes of which nothing is known."""
         state, rung = np.full(n, UNSURE, np.uint8), np.zeros(n, np.uint8)
         return cls(state, rung, np.zeros(n), np.zeros(n), np.zeros(n), np.zeros(n))
 
@@ -78,7 +78,6 @@ class Outcomes:
         return state, self.enter, self.leave, self.before, self.after
 
     def put(self, at: Any, other: Outcomes) -> None:
-        """Write what another says of some lanes."""
         for name in self.__slots__:
             getattr(self, name)[at] = getattr(other, name)
 
@@ -97,17 +96,16 @@ class Lanes:
     """
 
     rows: Floats
-    back: Any
+    back: Floats
     in_range: Mask
 
     @classmethod
     def of(cls, plan: LeafPlan, rays: Floats) -> Lanes:
         """Return rays, given as six rows, in the units of a plan."""
-        rows = rays if plan.stretch == 1.0 else rays.copy()
-        back: Any = np.ones(rays.shape[1])
+        rows, back = rays, np.full(rays.shape[1], 1.0 / plan.stretch)
         if plan.stretch != 1.0:
+            rows = rays.copy()
             rows[:3] *= plan.stretch
-            back /= plan.stretch
         fastest = np.max(np.abs(rays[3:]), axis=0)
         odd = (fastest > SPEED) | ((fastest < 1.0 / SPEED) & (fastest > 0))
         if odd.any():
@@ -122,7 +120,6 @@ class Lanes:
         return cls(rows, back, in_range)
 
     def take(self, at: NDArray[np.intp]) -> Lanes:
-        """Return the lanes with these numbers."""
         return Lanes(self.rows.take(at, axis=1), self.back[at], self.in_range[at])
 
     def ray(
@@ -172,8 +169,6 @@ def _part(plan: LeafPlan, rays: Floats, begin: int, outcomes: Outcomes) -> None:
         outcomes.mark(at[done], sure, FLOAT, np.where(sure == HIT, np.inf, 0.0))
         at, lanes = at[left], lanes.take(left)
     if len(at):
-        lists = [
-            solve(*lanes.ray(plan, keep), plan.numbers, lanes.back)
-            for _, solve, keep in faces(plan)
-        ]
-        outcomes.put(at, Outcomes.of(joined(*lists) if len(lists) > 1 else lists[0], PAIR))
+        rungs = [(solve, lanes.ray(plan, keep)) for _, solve, keep in faces(plan)]
+        lists = [solve(*ray, plan.numbers, lanes.back) for solve, ray in rungs]
+        outcomes.put(at, Outcomes.of(reduce(joined, lists), PAIR))

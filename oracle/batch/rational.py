@@ -47,7 +47,6 @@ def grown(terms: Terms) -> Terms:
 
 
 def vanishes(terms: Terms) -> Mask:
-    """Where a sum is 0."""
     zero: Mask = np.logical_and.reduce([part == 0 for part in grown(terms)])
     return zero
 
@@ -70,7 +69,6 @@ def products(a: Pair, b: Pair) -> Terms:
 
 
 def dot_terms(a: Triple, b: Triple) -> Terms:
-    """Return a . b exactly."""
     return [0.0 * a[0][0], *(term for i in range(3) for term in products(a[i], b[i]))]
 
 
@@ -90,12 +88,10 @@ def cross_singles(a: Triple, b: Triple) -> tuple[Triple, Mask]:
 
 
 def square_terms(a: Iterable[Number]) -> Terms:
-    """Return the sum of the squares of doubles exactly."""
     return [term for x in a for term in two_prod(x, x)]
 
 
 def paired(v: Singles) -> Triple:
-    """Return doubles as pairs."""
     return tuple((x, 0.0 * x) for x in v)
 
 
@@ -172,7 +168,6 @@ def on_plane(y: Triple, v: Singles, w: Triple, high: Number, low: Number) -> Mas
 
 
 def some(a: Triple, at: NDArray[np.intp]) -> Triple:
-    """Return the lanes with these numbers."""
     return tuple((high[at], low[at]) for high, low in a)
 
 
@@ -183,7 +178,6 @@ def masked(a: Triple, w: Triple) -> Triple:
 
 
 def constants(plan: LeafPlan, n: int) -> Triple:
-    """Return the axis or normal for each of n lanes."""
     return tuple((np.full(n, high), np.full(n, low)) for high, low in plan.w)
 
 
@@ -233,7 +227,6 @@ def _tested(where: Mask, test: Test, high: Floats, low: Floats) -> Mask:
 
 
 def solve_curved(plan: LeafPlan, lanes: Lanes) -> Outcomes:
-    """Return what exact zeros decide of the curved face."""
     frame = Zeros(plan, lanes)
     if frame.tilted:
         terms = wall(frame.y, frame.v, plan.w, plan.size, plan.rr, plan.cap)
@@ -300,7 +293,6 @@ def _hit(found: Outcomes, where: Mask, enter: End, leave: End) -> None:
 
 
 def solve_planes(plan: LeafPlan, lanes: Lanes) -> Outcomes:
-    """Return what exact zeros decide of a half-space or slab."""
     w = constants(plan, len(lanes.back))
     u, v, (p, q) = lanes.ray(plan)
     at_p, at_q = offset(u, p), offset(u, q)
@@ -342,7 +334,6 @@ def _passed(found: Outcomes, moving: Mask, first: Any, last: Any, endless: bool)
 
 
 def rational(plan: LeafPlan, lanes: Lanes) -> Outcomes:
-    """Return what the rational rung decides of a leaf's lanes."""
     if plan.kind == PLANES:
         return solve_planes(plan, lanes)
     found = solve_curved(plan, lanes)

@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from raycert.oracle.commands.options import counting
 from raycert.oracle.commands.scenes import needs, read, scene_argument
 
 SHOWS = ("depth", "normal", "thickness", "count")
@@ -18,8 +19,7 @@ The table:
   ratio     without / with: what the item is worth
 An item that the scene does not allow has no times, and the reason in place of a reason.
 All times are of one run, in turn, the least processor time of the repeats; a few percent
-are noise. The
-pictures are the same to the bit with and without each item.
+are noise. The pictures are the same to the bit with and without each item.
 
 \b
 Examples:
@@ -48,22 +48,28 @@ def plan(scene: str | None, **options: Any) -> None:
         raise click.UsageError("--solids is now: raycert bench --section scenes")
     needs("numpy")
     read_scene, name = read(scene, options["size"])
-    from raycert.oracle.commands.options import counting
     from raycert.oracle.measure.pictures import worth
 
     with counting("timing") as advance:
         rows, (planned, plain) = worth(read_scene, options["show"], options["repeats"])
         advance()
     items = [asdict(row.item) | {"with": row.with_it, "without": row.without} for row in rows]
-    found = {"scene": name, "size": list(read_scene.size), "show": options["show"]}
-    found |= {"items": items, "planned": planned, "plain": plain}
+    result = {"scene": name, "size": list(read_scene.size), "show": options["show"]}
+    result |= {"items": items, "planned": planned, "plain": plain}
     if options["as_json"]:
-        click.echo(json.dumps(found, indent=1))
+        click.echo(json.dumps(result, indent=1))
     else:
-        _show(found)
+        _print(**result)
 
 
-def _show(found: dict[str, Any]) -> None:
+def _print(
+    scene: str,
+    size: list[int],
+    show: str,
+    items: list[dict[str, Any]],
+    planned: float,
+    plain: float,
+) -> None:
     from rich.console import Console
     from rich.table import Table
 
@@ -72,18 +78,15 @@ def _show(found: dict[str, Any]) -> None:
         table.add_column(title, no_wrap=title == "item")
     for title in ("with ms", "without", "ratio"):
         table.add_column(title, justify="right", no_wrap=True)
-    for row in found["items"]:
-        words = row["name"], row["leaves_out"]
-        if not row["applies"]:
+    for row in items:
+        words, times = (row["name"], row["leaves_out"]), (row["with"], row["without"])
+        if row["applies"]:
+            numbers = (f"{1e3 * t:.1f}" for t in times)
+            table.add_row(*words, row["why"], *numbers, f"{times[1] / times[0]:.2f}")
+        else:
             table.add_row(*words, f"not here: {row['why']}", "", "", "", style="dim")
-            continue
-        times = row["with"], row["without"]
-        numbers = (f"{1e3 * t:.1f}" for t in times)
-        table.add_row(*words, row["why"], *numbers, f"{times[1] / times[0]:.2f}")
     Console().print(table)
-    width, height = found["size"]
-    planned, plain = found["planned"], found["plain"]
     click.echo(
-        f"{found['scene']}, {found['show']}, {width}x{height}: {1e3 * planned:.1f} ms planned, "
+        f"{scene}, {show}, {size[0]}x{size[1]}: {1e3 * planned:.1f} ms planned, "
         f"{1e3 * plain:.1f} ms with nothing left out: {plain / planned:.1f} times"
     )

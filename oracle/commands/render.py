@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import time
+from operator import itemgetter
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.options import BadInput, check_writable
-from raycert.oracle.commands.scenes import Asked, needs, read, scene_argument, start, table
+from raycert.oracle.commands.options import FILE, BadInput, check_writable, counting, repeatable
+from raycert.oracle.commands.scenes import answer, needs, read, scene_argument, start
 
 if TYPE_CHECKING:
     from raycert.cases.scene import Scene
@@ -49,9 +50,7 @@ the vertical angle "fov" in degrees.
 
 @click.command(epilog=EPILOG)
 @scene_argument
-@click.option(
-    "-o", "--out", type=click.Path(dir_okay=False, path_type=Path), help="PNG.  [SCENE-SHOW.png]"
-)
+@click.option("-o", "--out", type=FILE, help="PNG.  [SCENE-SHOW.png]")
 @click.option("--show", type=click.Choice(SHOWS), default="depth", show_default=True)
 @click.option("--size", metavar="WxH", help="Pixels, in place of the scene's size.")
 @click.option(
@@ -61,7 +60,7 @@ the vertical angle "fov" in degrees.
     show_default=True,
     help="textbook: b^2 - a c in plain doubles, to see what it loses.",
 )
-@click.option("--off", multiple=True, help="Leave this item of the plan off (repeatable).")
+@repeatable("--off", "off", "Leave this item of the plan off")
 @click.option("--pixel", metavar="X,Y", help="Print this pixel's solid and ray, as JSON.")
 @click.option("--list", "listed", is_flag=True, help="List the scenes that come with raycert.")
 def render(scene: str | None, out: Path | None, **options: Any) -> None:
@@ -75,7 +74,7 @@ def render(scene: str | None, out: Path | None, **options: Any) -> None:
     --size 160x120. Exit 1 if an error is above 64, the bound of the level stable.
     """
     if options["listed"]:
-        table()
+        _list()
         return
     read_scene, name = read(scene, options["size"])
     if options["pixel"]:
@@ -84,41 +83,50 @@ def render(scene: str | None, out: Path | None, **options: Any) -> None:
     needs("numpy", "PIL")
     out = out or Path(f"{name}-{options['show']}.png")
     check_writable(out.parent, "--out")
-    asked = Asked(options["show"], options["tracer"], options["off"])
-    raise SystemExit(_render(read_scene, scene or "", out, asked, options["size"]))
+    raise SystemExit(_render(read_scene, scene or "", out, options))
 
 
-def _render(scene: Scene, source: str, out: Path, asked: Asked, size: str | None) -> int:
+def _list() -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    from raycert.cases.scene import load, shipped
+
+    grid = Table(box=None, pad_edge=False, show_header=False)
+    grid.add_column(no_wrap=True)
+    for name in shipped():
+        grid.add_row(name, load(name).about)
+    Console().print(grid)
+
+
+def _render(scene: Scene, source: str, out: Path, options: dict[str, Any]) -> int:
+    show, tracer, size = options["show"], options["tracer"], options["size"]
     began = time.perf_counter()
-    started = start(scene, asked)
-    from raycert.oracle.plots.heatmap import extremes, of_scene, save, shown
-
-    found = started.arrays()
-    rows = _errors(scene, found) if asked.show == "error" else []
-    values = _array(rows) if rows else found["values"]
-    save(of_scene(values, asked.show, ", textbook" if asked.tracer == "textbook" else ""), out)
-    width, height = scene.size
-    words = [f"{width}x{height}", f"{started.about['hits']} of {width * height} rays hit"]
-    if asked.show != "normal" and (ends := extremes(values)):
-        words.append(f"{asked.show} {shown(ends[0], *ends)} to {shown(ends[1], *ends)}")
-    click.echo(f"{out}: {', '.join(words)}, {time.perf_counter() - began:.2f} s")
-    click.echo(f"left out: {', '.join(started.about['left_out']) or 'nothing'}")
-    return _tell_errors(rows, f"{source} --size {size}" if size else source) if rows else 0
-
-
-def _array(rows: list[list[float]]) -> Any:
+    at_work = start(scene, "lists" if show == "error" else show, tracer, options["off"])
+    # The tracer runs in a process of its own while the picture's packages are loaded here.
     import numpy as np
 
-    return np.array(rows)
+    from raycert.oracle.plots.heatmap import extremes, of_scene, save, shown
+
+    arrays, about = answer(at_work)
+    rows = _errors(scene, arrays) if show == "error" else []
+    values = np.array(rows) if rows else arrays["values"]
+    save(of_scene(values, show, ", textbook" if tracer == "textbook" else ""), out)
+    width, height = scene.size
+    words = [f"{width}x{height}", f"{about['hits']} of {width * height} rays hit"]
+    if show != "normal" and (ends := extremes(values)):
+        words.append(f"{show} {shown(ends[0], *ends)} to {shown(ends[1], *ends)}")
+    click.echo(f"{out}: {', '.join(words)}, {time.perf_counter() - began:.2f} s")
+    click.echo(f"left out: {', '.join(about['left_out']) or 'nothing'}")
+    return _print_errors(rows, f"{source} --size {size}" if size else source) if rows else 0
 
 
-def _errors(scene: Scene, found: dict[str, Any]) -> list[list[float]]:
+def _errors(scene: Scene, arrays: dict[str, Any]) -> list[list[float]]:
     """Return k of every pixel, row by row, judged in two processes."""
-    from raycert.oracle.commands.options import counting
     from raycert.oracle.judge.pixels import every_row
 
-    arrays = (found[name].tolist() for name in ("enter", "leave", "count"))
-    answers = [list(zip(a[:n], b[:n], strict=True)) for a, b, n in zip(*arrays, strict=True)]
+    columns = (arrays[name].tolist() for name in ("enter", "leave", "count"))
+    answers = [list(zip(a[:n], b[:n], strict=True)) for a, b, n in zip(*columns, strict=True)]
     rows = []
     with counting("judging", scene.size[1]) as advance:
         for row in every_row(scene, answers):
@@ -127,12 +135,11 @@ def _errors(scene: Scene, found: dict[str, Any]) -> list[list[float]]:
     return rows
 
 
-def _tell_errors(rows: list[list[float]], source: str) -> int:
+def _print_errors(rows: list[list[float]], source: str) -> int:
     """Print the largest k and its pixel; return 1 if it is beyond the bound of `stable`."""
-    worst, x, y = max(
-        ((k, x, y) for y, row in enumerate(rows) for x, k in enumerate(row)), key=lambda at: at[0]
-    )
-    above = [sum(k > bound for row in rows for k in row) for bound in (1, BOUND)]
+    every = [(k, x, y) for y, row in enumerate(rows) for x, k in enumerate(row)]
+    worst, x, y = max(every, key=itemgetter(0))
+    above = [sum(k > bound for k, _, _ in every) for bound in (1, BOUND)]
     click.echo(f"k at most {worst:.4g}; pixels above 1: {above[0]}, above {BOUND}: {above[1]}")
     click.echo(f"worst: raycert render {source} --pixel {x},{y} | raycert explain --json -")
     return 1 if worst > BOUND else 0
@@ -152,5 +159,4 @@ def _pixel(scene: Scene, words: str) -> str:
     if not (int(column) < width and int(row) < height):
         raise BadInput(f"--pixel: {words} is not in a picture of {width}x{height}")
     ray = pixel_ray(frame(scene.camera), scene.size, int(column), int(row))
-    form = {"solid": write_solid(scene.solid, "hex"), "ray": write_ray(ray, "hex")}
-    return json.dumps(form)
+    return json.dumps({"solid": write_solid(scene.solid, "hex"), "ray": write_ray(ray, "hex")})

@@ -1,35 +1,26 @@
 """What the commands on scenes share: reading one, and the reference tracer as a process.
 
-The tracer runs in `python -m reference.arrays`: it is asked in JSON and answers with arrays.
+The tracer runs in `python -m raycert.reference.arrays`: asked in JSON, it answers with arrays.
 """
 
 from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.options import BadInput
+from raycert.oracle.commands.options import BadInput, stop
 
 if TYPE_CHECKING:
     from raycert.cases.scene import Scene
 
-Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 COMMAND = ("-m", "raycert.reference.arrays")
+Tracer = subprocess.Popen[bytes]
 
-
-@dataclass(frozen=True, slots=True)
-class Asked:
-    """What is to be shown, by which tracer, and which items of the plan stay off."""
-
-    show: str
-    tracer: str = "reference"
-    off: tuple[str, ...] = ()
+scene_argument = click.argument("scene", required=False)
 
 
 def needs(*packages: str) -> None:
@@ -37,13 +28,7 @@ def needs(*packages: str) -> None:
     from importlib.util import find_spec
 
     if missing := [name for name in packages if find_spec(name) is None]:
-        click.echo(f'raycert: {", ".join(missing)} missing: pip install "raycert[plots]"', err=True)
-        raise SystemExit(3)
-
-
-def scene_argument(command: Decorated) -> Decorated:
-    """Add the argument that names a scene."""
-    return click.argument("scene", required=False)(command)
+        stop(f'{", ".join(missing)} missing: pip install "raycert[plots]"')
 
 
 def read(source: str | None, size: str | None) -> tuple[Scene, str]:
@@ -54,14 +39,14 @@ def read(source: str | None, size: str | None) -> tuple[Scene, str]:
     from raycert.cases.model import Refused
     from raycert.cases.scene import load, read_size, shipped
 
+    names = ", ".join(shipped())
     if not source:
-        raise click.UsageError(f"name a scene: {', '.join(shipped())}, or a file")
+        raise click.UsageError(f"name a scene: {names}, or a file")
     try:
         scene = load(source)
     except Refused as refusal:
         raise BadInput(f"{source}: {refusal}") from None
     except OSError as error:
-        names = ", ".join(shipped())
         raise BadInput(f"{source}: {error.strerror}; scenes that come along: {names}") from None
     if size:
         words = size.lower().split("x")
@@ -74,73 +59,39 @@ def read(source: str | None, size: str | None) -> tuple[Scene, str]:
     return scene, Path(source).stem
 
 
-def table() -> None:
-    """Print the scenes that come with raycert, and what each shows."""
-    from rich.console import Console
-    from rich.table import Table
-
-    from raycert.cases.scene import load, shipped
-
-    grid = Table(box=None, pad_edge=False, show_header=False)
-    grid.add_column(no_wrap=True)
-    for name in shipped():
-        grid.add_row(name, load(name).about)
-    Console().print(grid)
-
-
-@dataclass
-class Started:
-    """The tracer at work on a task; `about` is what it told with its arrays."""
-
-    process: subprocess.Popen[bytes]
-    about: dict[str, Any] = field(default_factory=dict)
-
-    def output(self) -> bytes:
-        """Return what it answered, when it is done."""
-        out, _ = self.process.communicate()
-        if self.process.returncode == 2:
-            raise SystemExit(2)
-        if self.process.returncode:
-            click.echo("raycert: the tracer failed; what it said is above", err=True)
-            raise SystemExit(3)
-        return out
-
-    def arrays(self) -> dict[str, Any]:
-        """Return the arrays that it answered, when it is done."""
-        import json
-        from io import BytesIO
-
-        import numpy as np
-
-        with np.load(BytesIO(self.output())) as file:
-            found = {name: file[name] for name in file.files}
-        self.about.update(json.loads(str(found.pop("about"))))
-        return found
-
-
-def ask(task: dict[str, Any]) -> Started:
-    """Start the tracer on a task; the answer is waited for where it is used."""
+def start(scene: Scene, show: str, tracer: str, off: tuple[str, ...]) -> Tracer:
+    """Start the tracer on a picture; `answer` waits for it."""
     import json
 
+    from raycert.cases.scene import write_scene
+
+    task = {"task": "render", "show": show, "tracer": tracer, "off": off}
     try:
         process = subprocess.Popen(
             [sys.executable, *COMMAND], stdin=subprocess.PIPE, stdout=subprocess.PIPE
         )
     except OSError as error:
-        click.echo(f"raycert: the tracer does not start: {error}", err=True)
-        raise SystemExit(3) from None
+        stop(f"the tracer does not start: {error}")
     assert process.stdin is not None
-    with suppress(BrokenPipeError):  # it ended early: `output` says so
-        process.stdin.write(json.dumps(task).encode())
+    with suppress(BrokenPipeError):  # it ended early: `answer` says so
+        process.stdin.write(json.dumps(task | {"scene": write_scene(scene)}).encode())
         process.stdin.close()
     process.stdin = None
-    return Started(process)
+    return process
 
 
-def start(scene: Scene, asked: Asked) -> Started:
-    """Start the tracer on a picture."""
-    from raycert.cases.scene import write_scene
+def answer(process: Tracer) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return the arrays that the tracer answers, when it is done, and what it says about them."""
+    import json
+    from io import BytesIO
 
-    show = "lists" if asked.show == "error" else asked.show
-    task = {"task": "render", "show": show, "tracer": asked.tracer, "off": list(asked.off)}
-    return ask(task | {"scene": write_scene(scene)})
+    import numpy as np
+
+    out, _ = process.communicate()
+    if process.returncode == 2:
+        raise SystemExit(2)
+    if process.returncode:
+        stop("the tracer failed; what it said is above")
+    with np.load(BytesIO(out)) as file:
+        arrays = {name: file[name] for name in file.files}
+    return arrays, json.loads(str(arrays.pop("about")))

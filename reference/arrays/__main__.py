@@ -44,7 +44,6 @@ def render(task: dict[str, Any]) -> bytes:
 
 
 def main() -> None:
-    """Do the task on standard input."""
     task = json.load(sys.stdin)
     assert task["task"] == "render"
     sys.stdout.buffer.write(render(task))

@@ -24,11 +24,9 @@ class Lists(NamedTuple):
     lanes: int
 
     def where(self, keep: Mask) -> Lists:
-        """Return some of the pairs."""
         return Lists(self.lane[keep], self.enter[keep], self.leave[keep], self.lanes)
 
     def counts(self) -> Whole:
-        """Return the number of pairs in each lane."""
         return np.bincount(self.lane, minlength=self.lanes)
 
     def first(self, fill: float = np.nan) -> Array:
@@ -53,12 +51,10 @@ class Padded:
 
 
 def nothing(lanes: int) -> Lists:
-    """Return the empty list in every lane."""
     return Lists(np.empty(0, np.int64), np.empty(0), np.empty(0), lanes)
 
 
 def padded(lists: Lists) -> Padded:
-    """Return the lists as rows of pairs."""
     count = lists.counts()
     width = int(count.max(initial=0))
     column = np.arange(lists.lane.size) - _starts(count)[lists.lane]

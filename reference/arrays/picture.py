@@ -54,7 +54,6 @@ class Picture(NamedTuple):
 
 @np.errstate(all="ignore")
 def picture(plan: Plan, show: Show) -> Picture:
-    """Return what a plan's scene looks like."""
     width, height = plan.size
     deep = (3,) if show == "normal" else ()
     values = np.full((width * height, *deep), np.nan)
@@ -169,7 +168,6 @@ def _faces(part: Part, rays: Bundle) -> Iterator[tuple[Lists, Vector | None, Vec
 
 
 def _normal(x: Array, along: Vector | None, center: Vector | None) -> Array:
-    """Return a normal, of any length, at each of the points."""
     if center is None:
         return np.broadcast_to(np.array(along), x.shape)
     y: Array = x - np.array(center)

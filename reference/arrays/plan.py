@@ -170,7 +170,6 @@ class Plan:
     memory: Memory = field(default_factory=dict)
 
     def bundle(self, i: int) -> Bundle:
-        """Return the rays of a tile, and what is known of them."""
         tile = self.tiles[i]
         origin, direction = rays(self.frame, self.size, tile)
         return Bundle(

@@ -57,7 +57,6 @@ class Tile(NamedTuple):
 
     @property
     def lanes(self) -> int:
-        """Return the number of pixels."""
         return (self.right - self.left) * (self.bottom - self.top)
 
     def pixels(self, width: int) -> Whole:
@@ -72,7 +71,6 @@ class Tile(NamedTuple):
 
 
 def tiles(size: tuple[int, int], side: int) -> list[Tile]:
-    """Return the tiles of a picture, row by row."""
     width, height = size
     return [
         Tile(left, min(left + side, width), top, min(top + side, height))
@@ -93,7 +91,6 @@ def rays(frame: Frame, size: tuple[int, int], tile: Tile) -> tuple[Vectors, Vect
 
 
 def widened(a: Vectors, lanes: int) -> Vectors:
-    """Return a shared vector lane by lane."""
     return tuple(None if c is None else np.repeat(c, lanes // c.size) for c in a)
 
 
@@ -150,7 +147,6 @@ def _leaf_size(leaf: Leaf) -> float:
 
 
 def _extent(leaf: Leaf, i: int) -> tuple[float, float]:
-    """Return the bounds of a leaf along coordinate axis i."""
     match leaf:
         case HalfSpace(point, normal):
             if any(normal[j] for j in range(3) if j != i):

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import reduce
 from itertools import count
 from typing import NamedTuple, TypeVar
 
@@ -28,6 +29,7 @@ from raycert.cases.model import (
     Union,
     Vector,
     parts,
+    points,
     radius,
 )
 from raycert.reference.arrays import vectors as vec
@@ -84,7 +86,6 @@ def number(solid: Solid, numbers: Iterator[int] | None = None) -> Part:
 
 
 def walk(part: Part) -> Iterator[Part]:
-    """Yield a tree's nodes in the order of their numbers."""
     yield part
     for child in part.parts:
         yield from walk(child)
@@ -112,7 +113,6 @@ class Bundle:
     lists: dict[int, Lists] = field(default_factory=dict)
 
     def only(self, lanes: Whole) -> Bundle:
-        """Return some of the rays."""
         u, v = take_all(self.origin, lanes), take_all(self.direction, lanes)
         return replace(self, origin=u, direction=v, lanes=lanes.size, here={}, lists={})
 
@@ -133,7 +133,6 @@ class Bundle:
         return memory[key]  # type: ignore[return-value]
 
     def sees(self, part: Part) -> bool:
-        """Whether the rays may meet a part."""
         return self.seen is None or bool(self.seen[part.index])
 
 
@@ -150,10 +149,9 @@ class Course(NamedTuple):
 
 
 class Meeting(NamedTuple):
-    """The start from p and from q (for a sphere, from the center), scaled."""
+    """The start from each point of a leaf, scaled; and from the first across the axis."""
 
-    y: Vectors
-    z: Vectors
+    y: list[Vectors]
     e: Whole
     start: Start
 
@@ -187,16 +185,21 @@ def course(w: Vector | None, rays: Bundle) -> Course:
     return rays.of_direction(w, make)
 
 
-def meeting(solid: InfiniteCylinder | Slab | Cylinder, w: Vector, rays: Bundle) -> Meeting:
-    """Return the start relative to an axis."""
+def meeting(
+    solid: Sphere | InfiniteCylinder | Slab | Cylinder, w: Vector | None, rays: Bundle
+) -> Meeting:
+    """Return the start relative to an axis, or to a sphere's center, where w is None."""
 
     def make() -> Meeting:
-        (y, ye), (z, ze), e = _from(solid.p, rays), _from(solid.q, rays), UNSCALED
+        starts, e = [_from(point, rays) for point in points(solid)], UNSCALED
         if rays.switches.scaling:
-            e = np.maximum(np.maximum(ye, ze), exponent(radius(solid)))
-            y, z = vec.shift(y, ye - e), vec.shift(z, ze - e)
-        across = vec.cross(y, vec.constant(w, rays.switches.axis))
-        return Meeting(y, z, e, Start(across, _length(radius(solid), e) * norm(w)))
+            e = reduce(np.maximum, [np.array(exponent(radius(solid))), *(ye for _, ye in starts)])
+            starts = [(vec.shift(y, ye - e), e) for y, ye in starts]
+        y, r = [y for y, _ in starts], _length(radius(solid), e)
+        if w is None:
+            return Meeting(y, e, Start(y[0], r))
+        across = vec.cross(y[0], vec.constant(w, rays.switches.axis))
+        return Meeting(y, e, Start(across, r * norm(w)))
 
     return rays.of_origin(solid, make)
 
@@ -237,7 +240,7 @@ def _planes(
     `endless`: the planes are nowhere, and no number is used.
     """
     n = vec.constant(w, rays.switches.axis)
-    up, uq = -dot(take_all(there.y, lanes), n), -dot(take_all(there.z, lanes), n)
+    up, uq = (-dot(take_all(y, lanes), n) for y in there.y)
     vn = -dot(take_all(v, lanes), n)
     tp, tq = -up / vn, -uq / vn
     forth, past_q = vn > 0, uq < 0
@@ -269,18 +272,9 @@ def half_space(solid: HalfSpace, rays: Bundle) -> Lists:
 
 def sphere(solid: Sphere, rays: Bundle, first: bool = False) -> Lists:
     """Return where the distance from the center is at most the radius."""
-
-    def make() -> tuple[Start, Whole]:
-        (y, ye), e = _from(solid.center, rays), UNSCALED
-        if rays.switches.scaling:
-            e = np.maximum(ye, exponent(solid.radius))
-            y = vec.shift(y, ye - e)
-        return Start(y, _length(solid.radius, e)), e
-
-    start, e = rays.of_origin(solid, make)
-    way = course(None, rays)
-    pairs = rays.switches.chord(start, way.line, rays.lanes, rays.switches.misses, first)
-    return unscale(pairs, e - way.e, rays.switches.scaling)
+    there, way, misses = meeting(solid, None, rays), course(None, rays), rays.switches.misses
+    pairs = rays.switches.chord(there.start, way.line, rays.lanes, misses, first)
+    return unscale(pairs, there.e - way.e, rays.switches.scaling)
 
 
 def unscale(pairs: Lists, e: Whole, scaling: bool) -> Lists:

@@ -39,7 +39,6 @@ def constant(a: Vector, drop: bool) -> Vectors:
 
 
 def present(a: Vectors) -> list[Array]:
-    """Return the components that are not None."""
     return [c for c in a if c is not None]
 
 
@@ -49,12 +48,10 @@ def take(a: Array, lanes: Whole) -> Array:
 
 
 def take_all(a: Vectors, lanes: Whole) -> Vectors:
-    """Return the lanes of a vector."""
     return tuple(None if c is None else take(c, lanes) for c in a)
 
 
 def dot(a: Vectors, b: Vectors) -> Array:
-    """Return a . b."""
     total: Component = None
     for x, y in zip(a, b, strict=True):
         total = _plus(total, _times(x, y))
@@ -62,7 +59,6 @@ def dot(a: Vectors, b: Vectors) -> Array:
 
 
 def cross(a: Vectors, b: Vectors) -> Vectors:
-    """Return a x b."""
     return (
         _minus(_times(a[1], b[2]), _times(a[2], b[1])),
         _minus(_times(a[2], b[0]), _times(a[0], b[2])),
@@ -71,7 +67,6 @@ def cross(a: Vectors, b: Vectors) -> Vectors:
 
 
 def largest(a: Vectors) -> Array:
-    """Return the largest magnitude of a component."""
     size: Component = None
     for c in present(a):
         size = abs(c) if size is None else np.maximum(size, abs(c))
@@ -85,7 +80,6 @@ def exponent(size: Array) -> Whole:
 
 
 def shift(a: Vectors, e: Whole) -> Vectors:
-    """Return a 2^e."""
     return tuple(None if c is None else np.ldexp(c, e) for c in a)
 
 
