@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.measuring import chosen, drawing, end, known, ways_options
+from raycert.oracle.commands.measuring import chosen, drawing, end, known, ways_options, write_rows
 from raycert.oracle.commands.options import check_writable, counting, repeatable
 
 if TYPE_CHECKING:
@@ -125,10 +125,7 @@ def run(sections: Sequence[str], options: dict[str, Any]) -> Report:
                 race.run(sets, ways, report, advance)
             continue
         with counting(name, tables.steps(name, report.effort)) as advance:
-            if name == "scalar":
-                tables.run_scalar(report, advance)
-            else:
-                tables.run(name, report, advance)
+            tables.run(name, report, advance)
     return report
 
 
@@ -242,13 +239,10 @@ def short(x: float) -> str:
 
 def _write(report: Report, folder: Path) -> list[Path]:
     """Write the rows, and a plot of each scenario; return the paths."""
-    import json
-
     from raycert.oracle.measure.files import as_csv, place
 
-    written = [folder / "bench.json", folder / "bench.csv"]
-    written[0].write_text(json.dumps(report.as_json(), indent=1) + "\n", encoding="ascii")
-    written[1].write_text(as_csv(report.sections.get("methods", ())), encoding="ascii")
+    table = as_csv(report.sections.get("methods", ()))
+    written = write_rows(folder, "bench", report.as_json(), table)
     with drawing():
         from raycert.oracle.plots.pareto import draw
         from raycert.oracle.plots.style import save, styled

@@ -63,6 +63,16 @@ def known(names: Iterable[str], there: Iterable[str], option: str, hint: str = "
             raise click.BadParameter(text, param_hint=option)
 
 
+def write_rows(folder: Path, name: str, form: Any, table: str) -> list[Path]:
+    """Write what was measured as JSON and as CSV; return the paths."""
+    import json
+
+    written = [folder / f"{name}.json", folder / f"{name}.csv"]
+    written[0].write_text(json.dumps(form, indent=1, allow_nan=False) + "\n", encoding="ascii")
+    written[1].write_text(table, encoding="ascii")
+    return written
+
+
 @contextmanager
 def drawing() -> Iterator[None]:
     """Draw, or say what to install: without matplotlib there are no plots."""

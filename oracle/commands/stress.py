@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.measuring import chosen, drawing, end, known, ways_options
+from raycert.oracle.commands.measuring import chosen, drawing, end, known, ways_options, write_rows
 from raycert.oracle.commands.options import check_writable, counting, repeatable
 
 if TYPE_CHECKING:
@@ -176,13 +176,9 @@ def _causes(found: Stress, sweep: Sweep) -> list[str]:
 
 
 def _write(found: Stress, sides: Sequence[Sides], folder: Path) -> list[Path]:
-    import json
-
     from raycert.oracle.measure.curves import form, table
 
-    written = [folder / "stress.json", folder / "stress.csv"]
-    written[0].write_text(json.dumps(form(found, sides), indent=1, allow_nan=False) + "\n")
-    written[1].write_text(table(found))
+    written = write_rows(folder, "stress", form(found, sides), table(found))
     with drawing():
         written += _draw(found, sides, folder)
     return written

@@ -12,9 +12,9 @@ are left as arrays, as anybody would who has many rays. A tree costs its leaves,
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from importlib import import_module
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -35,7 +35,7 @@ from raycert.cases.vectors import cross, dot, minus
 from raycert.oracle.batch import arithmetic
 from raycert.oracle.batch.lanes import Floats
 from raycert.oracle.measure.quadratics import COMBINE
-from raycert.oracle.measure.way import Answered, Case, answered
+from raycert.oracle.measure.way import Answered, Case, answered, function
 from raycert.oracle.zoo.tracer import Pairs
 
 Array = Any
@@ -204,6 +204,11 @@ def shape(solid: Solid) -> tuple[object, ...]:
     return type(solid), *map(shape, solid.of if isinstance(solid, Tree) else ())
 
 
+def by_solid(solid: Solid) -> object:
+    """Return the solid itself: what the lanes of a batch have to share."""
+    return solid
+
+
 def grouped(
     cases: Sequence[Case], key: Callable[[Solid], object]
 ) -> list[tuple[list[int], list[Case]]]:
@@ -227,39 +232,45 @@ def scattered(
     return answers
 
 
+def _ready(calls: list[Callable[[], Any]]) -> Callable[[], None]:
+    """Return one call of all, which leaves the answers as arrays."""
+
+    def run() -> None:
+        for call in calls:
+            call()
+
+    return run
+
+
 def rows(cases: Sequence[Case]) -> tuple[Floats, Floats]:
-    return (
-        np.array([case.ray.origin for case in cases]),
-        np.array([case.ray.direction for case in cases]),
-    )
+    each = [case.ray for case in cases]
+    return np.array([ray.origin for ray in each]), np.array([ray.direction for ray in each])
+
+
+def basis(axis: Floats) -> Floats:
+    """Return two unit rows across an axis, and its own: e, n x e, n."""
+    n = axis / np.linalg.norm(axis)
+    e = np.cross(n, np.eye(3)[np.argmin(abs(n))])
+    e /= np.linalg.norm(e)
+    return np.array([e, np.cross(n, e), n])
+
+
+def _call(name: str, group: Sequence[Case]) -> Callable[[], Any]:
+    return partial(function(name), group[0].solid, *rows(group))
 
 
 def batch(name: str, cases: Sequence[Case]) -> list[Answered]:
     """Return the lists of `module:function(solid, origins, directions)`, solid by solid."""
 
     def solve(group: list[Case]) -> list[Answered]:
-        lists = _function(name)(group[0].solid, *rows(group))
+        lists = _call(name, group)()
         return [answered(lists.pairs(i)) for i in range(len(group))]
 
-    return scattered(cases, lambda solid: solid, solve)
+    return scattered(cases, by_solid, solve)
 
 
 def ready_batch(name: str, cases: Sequence[Case]) -> Callable[[], None]:
-    """Return the same as one call, which leaves the answers as arrays."""
-    work = [(group[0].solid, *rows(group)) for _, group in grouped(cases, lambda solid: solid)]
-    call = _function(name)
-
-    def run() -> None:
-        for solid, origins, directions in work:
-            call(solid, origins, directions)
-
-    return run
-
-
-def _function(name: str) -> Callable[..., Any]:
-    module, _, function = name.partition(":")
-    call: Callable[..., Any] = getattr(import_module(module), function)
-    return call
+    return _ready([_call(name, group) for _, group in grouped(cases, by_solid)])
 
 
 def textbook(kind: str, cases: Sequence[Case]) -> list[Answered]:
@@ -267,24 +278,19 @@ def textbook(kind: str, cases: Sequence[Case]) -> list[Answered]:
 
 
 def ready_textbook(kind: str, cases: Sequence[Case]) -> Callable[[], None]:
-    work = [_columns(group, kind) for _, group in grouped(cases, shape)]
-
-    def run() -> None:
-        for lanes, columns in work:
-            for column in columns:
-                lanes.spans(column)
-
-    return run
+    return _ready([_spans(group, kind) for _, group in grouped(cases, shape)])
 
 
-def _columns(group: Sequence[Case], kind: str) -> tuple[Columns, list[list[Leaf]]]:
+def _spans(group: Sequence[Case], kind: str) -> Callable[[], list[tuple[Floats, Floats]]]:
+    """Return the call for the spans of each leaf of the cases, which have one shape."""
     each = ([leaf for _, leaf in leaves(case.solid)] for case in group)
-    return Columns(KINDS[kind], *rows(group)), [list(column) for column in zip(*each, strict=True)]
+    columns = [list(column) for column in zip(*each, strict=True)]
+    lanes = Columns(KINDS[kind], *rows(group))
+    return lambda: [lanes.spans(column) for column in columns]
 
 
 def _lists(group: list[Case], kind: str) -> list[Answered]:
-    lanes, columns = _columns(group, kind)
-    spans = [tuple(x.tolist() for x in lanes.spans(column)) for column in columns]
+    spans = [(enter.tolist(), leave.tolist()) for enter, leave in _spans(group, kind)()]
     lists = [[_pairs(enter[i], leave[i]) for enter, leave in spans] for i in range(len(group))]
     return [_answer(case.solid, parts) for case, parts in zip(group, lists, strict=True)]
 
@@ -300,11 +306,10 @@ def _pairs(enter: float, leave: float) -> Pairs:
     return [] if enter > leave else [(enter, leave)]
 
 
-def _node(solid: Solid, parts: Any) -> Pairs:
+def _node(solid: Solid, parts: Iterator[Pairs]) -> Pairs:
     if isinstance(solid, Tree):
         return COMBINE[type(solid)]([_node(part, parts) for part in solid.of])
-    pairs: Pairs = next(parts)
-    return pairs
+    return next(parts)
 
 
 # One solid, many rays: what somebody writes who trusts doubles.

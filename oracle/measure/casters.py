@@ -28,7 +28,9 @@ from raycert.cases.scene import Camera, Scene, frame, pixel_ray
 from raycert.cases.vectors import along, minus, plus, times
 from raycert.oracle.batch.blocks import Batch, trace_batch
 from raycert.oracle.batch.lanes import Floats
+from raycert.oracle.measure.arrays import basis, rows
 from raycert.oracle.measure.rays import arrays
+from raycert.oracle.measure.way import Case
 
 CASTS = ("scattered", "camera", "pipe")
 QUESTIONS = ("first", "all")
@@ -91,8 +93,9 @@ def cast(name: str, size: tuple[int, int], seed: int) -> Cast:
 
 def _pixels(scene: Scene) -> tuple[Floats, Floats]:
     seen_from, (width, height) = frame(scene.camera), scene.size
-    rays = [pixel_ray(seen_from, scene.size, i, j) for j in range(height) for i in range(width)]
-    return np.array([ray.origin for ray in rays]), np.array([ray.direction for ray in rays])
+    pixels = ((i, j) for j in range(height) for i in range(width))
+    [(_, solid)] = scene.solids
+    return rows([Case(solid, pixel_ray(seen_from, scene.size, *pixel)) for pixel in pixels])
 
 
 def _from_outside(some: Cast) -> Cast:
@@ -209,15 +212,10 @@ def _raysect(cast: Cast, question: str) -> Call:
 def _of_raysect(solid: Cylinder) -> Any:
     """Return a cylinder of raysect: along z from its origin, turned and moved to where it is."""
     p, q = np.array(solid.p), np.array(solid.q)
-    height = np.linalg.norm(q - p)
-    n = (q - p) / height
-    e = np.cross(n, np.eye(3)[np.argmin(abs(n))])
-    e /= np.linalg.norm(e)
-    columns = np.column_stack([e, np.cross(n, e), n, p])
-    rows = [*columns.tolist(), [0.0, 0.0, 0.0, 1.0]]
-    place = import_module("raysect.core").AffineMatrix3D(rows)
+    matrix = [*np.column_stack([*basis(q - p), p]).tolist(), [0.0, 0.0, 0.0, 1.0]]
+    place = import_module("raysect.core").AffineMatrix3D(matrix)
     made = import_module("raysect.primitive").Cylinder
-    return made(solid.radius, float(height), transform=place)
+    return made(solid.radius, float(np.linalg.norm(q - p)), transform=place)
 
 
 def _of_lists(found: list[list[float]]) -> RayHits:

@@ -7,13 +7,11 @@ they differ by the formula; of one formula, by the arithmetic.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from functools import partial
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from raycert.oracle.client.target import target
-from raycert.oracle.measure.digits import in_balls, with_digits, with_intervals, with_sympy
+from raycert.oracle.measure.digits import in_balls, in_intervals, in_sympy, with_digits
 from raycert.oracle.measure.facets import SIDES
 from raycert.oracle.measure.quadratics import (
     Formula,
@@ -26,7 +24,16 @@ from raycert.oracle.measure.quadratics import (
     shifted_ball,
     textbook,
 )
-from raycert.oracle.measure.way import ALL, Way, called, client, exact, missing, one_by_one
+from raycert.oracle.measure.way import (
+    ALL,
+    Way,
+    called,
+    client,
+    exact,
+    function,
+    missing,
+    one_by_one,
+)
 
 DIGITS = (20, 50, 100, 200)
 MANY = 4096
@@ -35,23 +42,18 @@ BESIDE = ("reference", "textbook", "oracle")
 """What somebody's own tracer is set beside: what is right, what is not, and the truth."""
 
 
-def _late(module: str, function: str, *args: object) -> Callable[..., Any]:
+def _late(name: str, *args: object) -> Callable[..., Any]:
     """Return `function(*args, cases)` of a module here, which is loaded when it is called."""
-
-    def call(cases: Sequence[Any]) -> Any:
-        here = import_module(f"raycert.oracle.measure.{module}")
-        return partial(getattr(here, function), *args)(cases)
-
-    return call
+    return lambda cases: function(f"raycert.oracle.measure.{name}")(*args, cases)
 
 
 def _in_arrays(name: str, does: str, kind: str) -> Way:
-    solve, ready = (_late("arrays", f, kind) for f in ("textbook", "ready_textbook"))
+    solve, ready = (_late(f"arrays:{f}", kind) for f in ("textbook", "ready_textbook"))
     return Way(name, does, solve, ALL, kind, True, MANY, ready, ("numpy",))
 
 
-def _batch(name: str, does: str, function: str, precision: str) -> Way:
-    solve, ready = (_late("arrays", f, function) for f in ("batch", "ready_batch"))
+def _batch(name: str, does: str, called: str, precision: str) -> Way:
+    solve, ready = (_late(f"arrays:{f}", called) for f in ("batch", "ready_batch"))
     return Way(name, does, solve, ALL, precision, False, MANY, ready, ("numpy",))
 
 
@@ -60,7 +62,7 @@ def _mesh(caster: str, n: int) -> Way:
     return Way(
         f"{caster}-{n}",
         f"casts at a prism of {n} sides in the cylinder, by {words[caster]}",
-        _late("facets", "cast", caster, n),
+        _late("facets:cast", caster, n),
         frozenset({"cylinder"}),
         "mesh",
         stress=False,
@@ -90,10 +92,10 @@ WAYS: tuple[Way, ...] = (
         for digits in DIGITS
     ),
     Way("mpmath-intervals", "is the textbook in intervals, of which it must be sure",
-        with_intervals(), ALL, "interval", False, needs=("mpmath",)),
+        in_intervals, ALL, "interval", False, needs=("mpmath",)),
     Way("arb", "is the textbook in arb's balls, written out for capped cylinders",
         one_by_one(in_balls), frozenset({"cylinder"}), "interval", False, needs=("flint",)),
-    Way("sympy", "is the textbook in SymPy, exact, then 40 digits", with_sympy(), ALL,
+    Way("sympy", "is the textbook in SymPy, exact, then 40 digits", in_sympy, ALL,
         "symbolic", False, needs=("sympy",)),
     Way("oracle", "is the oracle, in integers", one_by_one(exact), ALL, "exact"),
     _batch("oracle-batch", "is the oracle in lanes, the same answers",

@@ -49,7 +49,6 @@ def ladder(bits: Sequence[int], context: Any, attempt: Callable[[], T]) -> T:
 
 
 def with_digits(digits: int) -> Solve:
-
     def make() -> Solve:
         mpmath = import_module("mpmath")
         mp, setting = mpmath.mp, partial(mpmath.workdps, digits)
@@ -58,62 +57,50 @@ def with_digits(digits: int) -> Solve:
     return lazily(make)
 
 
-def with_sympy() -> Solve:
+@lazily
+def in_sympy() -> Solve:
     """Return the textbook formula in SymPy: exact, then 40 digits, from an empty cache."""
+    sympy = import_module("sympy")
+    forget = import_module("sympy.core.cache").clear_cache
 
-    def make() -> Solve:
-        sympy = import_module("sympy")
-        forget = import_module("sympy.core.cache").clear_cache
-        exact = FORMULA(
-            Arithmetic(
-                lambda x: sympy.Rational(*x.as_integer_ratio()),
-                sympy.sqrt,
-                lambda x: inf if x == sympy.oo else float(x.evalf(40)),
-                infinity=sympy.oo,
-            ),
-        )
+    def number(x: float) -> Any:
+        return sympy.Rational(*x.as_integer_ratio())
 
-        def solve(cases: Sequence[Case]) -> list[Answered]:
-            forget()
-            return exact(cases)
+    def tell(x: Any) -> float:
+        return inf if x == sympy.oo else float(x.evalf(40))
 
-        return solve
+    exact = FORMULA(Arithmetic(number, sympy.sqrt, tell, infinity=sympy.oo))
 
-    return lazily(make)
+    def solve(cases: Sequence[Case]) -> list[Answered]:
+        forget()
+        return exact(cases)
+
+    return solve
 
 
-def with_intervals() -> Solve:
+@lazily
+def in_intervals() -> Solve:
     """Return the textbook formula in mpmath's intervals, at 166 bits and up."""
+    mpmath = import_module("mpmath")
+    iv, mp = mpmath.iv, mpmath.mp
 
-    def make() -> Solve:
-        mpmath = import_module("mpmath")
-        iv, mp = mpmath.iv, mpmath.mp
+    def number(x: float) -> Box:
+        return Box(iv.mpf(x))
 
-        def tell(box: Box) -> float:
-            low, high = (float(mp.make_mpf(end)) for end in box.value._mpi_)
-            if low != high:
-                raise Undecided
-            return low
+    def tell(box: Box) -> float:
+        low, high = (float(mp.make_mpf(end)) for end in box.value._mpi_)
+        if low != high:
+            raise Undecided
+        return low
 
-        formula = FORMULA(
-            Arithmetic(
-                lambda x: Box(iv.mpf(x)),
-                lambda box: Box(iv.sqrt(box.value)),
-                tell,
-                infinity=Box(iv.mpf(inf)),
-            )
-        )
+    formula = FORMULA(
+        Arithmetic(number, lambda box: Box(iv.sqrt(box.value)), tell, infinity=number(inf))
+    )
 
-        def intersect(solid: Solid, ray: Ray) -> Pairs:
-            return ladder(
-                INTERVAL_BITS,
-                iv,
-                lambda: tuple((tell(a), tell(b)) for a, b in formula.node(solid, ray)),
-            )
+    def attempt(solid: Solid, ray: Ray) -> Pairs:
+        return tuple((tell(a), tell(b)) for a, b in formula.node(solid, ray))
 
-        return one_by_one(intersect)
-
-    return lazily(make)
+    return one_by_one(lambda *case: ladder(INTERVAL_BITS, iv, partial(attempt, *case)))
 
 
 def _lifted(operation: Callable[[Any, Any], Any]) -> Callable[[Box, Box], Box]:

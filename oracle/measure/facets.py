@@ -42,24 +42,22 @@ def body(solid: Cylinder, caster: str, n: int) -> tuple[Any, Any]:
     import numpy as np
     import trimesh
 
+    from raycert.oracle.measure.arrays import basis
     from raycert.oracle.witness.bodies import Fineness, Side, prism_surface
 
     vertices, faces = prism_surface(Fineness(n, 0), Side.INNER, 0.0)
     p, q = np.array(solid.p), np.array(solid.q)
     along = (q - p) / 2
-    n_hat = along / np.linalg.norm(along)
-    e = np.cross(n_hat, np.eye(3)[np.argmin(np.abs(n_hat))])
-    e /= np.linalg.norm(e)
-    across = np.array([e, np.cross(n_hat, e)]) * solid.radius
+    across = basis(along)[:2] * solid.radius
     world = (p + q) / 2 + vertices[:, :2] @ across + vertices[:, 2:] * along
     mesh = trimesh.Trimesh(world, faces, process=False)
     return mesh, import_module(f"trimesh.ray.{CASTERS[caster]}").RayMeshIntersector(mesh)
 
 
 def cast(caster: str, n: int, cases: Sequence[Case]) -> list[Answered]:
-    from raycert.oracle.measure.arrays import scattered
+    from raycert.oracle.measure.arrays import by_solid, scattered
 
-    return scattered(cases, lambda solid: solid, lambda group: _group(group, caster, n))
+    return scattered(cases, by_solid, lambda group: _group(group, caster, n))
 
 
 def _group(cases: list[Case], caster: str, n: int) -> list[Answered]:

@@ -20,18 +20,8 @@ from raycert.oracle.certify.environment import environment
 Row = Mapping[str, Any]
 FORM = 1
 """The version of the form of bench.json."""
-PACKAGES = (
-    "numpy",
-    "numba",
-    "mpmath",
-    "sympy",
-    "python-flint",
-    "raysect",
-    "mujoco",
-    "trimesh",
-    "embreex",
-    "matplotlib",
-)
+PACKAGES = ("numpy", "numba", "mpmath", "sympy", "python-flint", "raysect", "mujoco", "trimesh",
+            "embreex", "matplotlib")  # fmt: skip
 """Distributions that figures depend on."""
 
 

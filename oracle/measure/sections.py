@@ -389,21 +389,21 @@ SECTIONS: dict[str, Section] = {
 }
 
 
-def scalar(effort: Effort) -> Effort:
-    return replace(effort, rays=min(effort.rays, SINGLE), sample=0)
-
-
 def run_scalar(report: Report, advance: Callable[[], None] = lambda: None) -> None:
-    """Add the section `scalar` to a report: a race of few ways over few sets."""
+    """Add the section `scalar` to a report: few rays and ways, and no backward errors."""
     ways, notes = here([BY_NAME[name] for name in DIGITS])
     report.notes += [f"scalar: {note}" for note in notes]
-    own = replace(report, effort=scalar(report.effort))
+    effort = replace(report.effort, rays=min(report.effort.rays, SINGLE), sample=0)
+    own = replace(report, effort=effort)
     race.run(SINGLE_SETS, ways, own, advance, "scalar")
     report.interrupted = own.interrupted
 
 
 def run(name: str, report: Report, advance: Callable[[], None] = lambda: None) -> None:
     """Add a section to a report; partial after KeyboardInterrupt."""
+    if name == "scalar":
+        run_scalar(report, advance)
+        return
     rows = report.sections.setdefault(name, [])
     try:
         for some in SECTIONS[name].rows(report):

@@ -11,9 +11,10 @@ when it is posed, and that posed problem is the question: rounding it is no erro
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from math import isqrt
 from typing import Literal
 
@@ -159,27 +160,27 @@ def before(target: Exact, direction: Exact, distance: Number) -> Exact:
 # Distance, aspect, tilt and scale.
 
 
-def drum(draw: Draw) -> tuple[Body, Number, Exact]:
-    """Return a cylinder about as high as wide, its radius, and a point deep inside."""
+def drum(draw: Draw) -> tuple[Body, Exact]:
+    """Return a cylinder about as high as wide, and a point deep inside."""
     body = cylinder(real(draw, 0.5, 1), real(draw, 2, 4))
-    return body, body.radius, point_of(draw, body)
+    return body, point_of(draw, body)
 
 
 def far(draw: Draw, number: int, x: Fraction) -> Sample:
     """Start x radii before a point inside; half of the rays along a coordinate axis."""
-    body, radius, target = drum(draw)
+    body, target = drum(draw)
     place, direction = frame_of(draw, bool(number % 2)), heading(draw)
     if not number % 2:
         direction = (1, 0, 0)
-    return Sample(body, before(target, direction, x * radius), direction, place)
+    return Sample(body, before(target, direction, x * body.radius), direction, place)
 
 
 def displaced(draw: Draw, number: int, x: Fraction) -> Sample:
     """Ray and cylinder near each other, x radii from the coordinate origin."""
-    body, radius, target = drum(draw)
+    body, target = drum(draw)
     place, direction, back = frame_of(draw, bool(number % 2)), heading(draw), real(draw, 2, 4)
-    away = times(x * radius * place.stretch, place.vector(heading(draw)))
-    return Sample(body, before(target, direction, back * radius), direction, place.moved(away))
+    away = times(x * body.radius * place.stretch, place.vector(heading(draw)))
+    return Sample(body, before(target, direction, back * body.radius), direction, place.moved(away))
 
 
 def thin(draw: Draw, number: int, x: Fraction) -> Sample:
@@ -195,8 +196,8 @@ def thin(draw: Draw, number: int, x: Fraction) -> Sample:
     return Sample(body, before(target, direction, back), direction, place)
 
 
-def _tilt(draw: Draw, number: int, x: Fraction, height: int) -> Sample:
-    """Start `height` radii up the axis: outside the wall and going in, or inside and going out.
+def tilt(draw: Draw, number: int, x: Fraction, height: int = 0) -> Sample:
+    """Start x radians from parallel, `height` radii up the axis: outside going in, or the reverse.
 
     Three in four starts are about x radii from the wall, and meet it within a radius of their way.
     """
@@ -212,22 +213,12 @@ def _tilt(draw: Draw, number: int, x: Fraction, height: int) -> Sample:
     return Sample(body, origin, (x, x * lean, draw.sign()), place)
 
 
-def tilt_wall(draw: Draw, number: int, x: Fraction) -> Sample:
-    """Start near the wall and near p, x radians from parallel to the axis."""
-    return _tilt(draw, number, x, 0)
-
-
-def tilt_axis(draw: Draw, number: int, x: Fraction) -> Sample:
-    """Start 4096 radii up the axis, else the same."""
-    return _tilt(draw, number, x, FAR_UP)
-
-
 def _plain(draw: Draw, number: int) -> Sample:
     """Return a plain scene; every fourth start is inside."""
-    body, radius, target = drum(draw)
+    body, target = drum(draw)
     place, direction = frame_of(draw, bool(number % 2)), heading(draw)
     back = 0 if number % 4 == 3 else real(draw, 2, 4)
-    return Sample(body, before(target, direction, back * radius), direction, place)
+    return Sample(body, before(target, direction, back * body.radius), direction, place)
 
 
 def speed(draw: Draw, number: int, x: Fraction) -> Sample:
@@ -266,24 +257,18 @@ def _skew(draw: Draw, x: Fraction, sign: int) -> Sample:
     return Sample(_rod(radius), origin, direction, place)
 
 
-def _gap(draw: Draw, number: int, x: Fraction, sign: int) -> Sample:
+def gap(draw: Draw, number: int, x: Fraction, sign: int) -> Sample:
+    """Return a chord at (1 - x) r from the axis, or a miss at (1 + x) r.
+
+    The latter is at r / (1 - x) where 1 + x is no double.
+    """
     if number % 2 and x >= ROOM:
         return _skew(draw, x, sign)
     if sign < 0:
-        return _passing(draw, number, Fraction(1), 1 - x)
+        return _passing(draw, number, ONE, 1 - x)
     if 1 + x == Fraction(float(1 + x)):
-        return _passing(draw, number, Fraction(1), 1 + x)
-    return _passing(draw, number, 1 - x, Fraction(1))
-
-
-def gap_inside(draw: Draw, number: int, x: Fraction) -> Sample:
-    """Return a chord at (1 - x) r from the axis."""
-    return _gap(draw, number, x, -1)
-
-
-def gap_outside(draw: Draw, number: int, x: Fraction) -> Sample:
-    """Return a miss at (1 + x) r from the axis: r / (1 - x) where 1 + x is no double."""
-    return _gap(draw, number, x, 1)
+        return _passing(draw, number, ONE, 1 + x)
+    return _passing(draw, number, 1 - x, ONE)
 
 
 def start(draw: Draw, number: int, x: Fraction) -> Sample:
@@ -385,32 +370,27 @@ class Sweep:
         return tuple(self.steps[i] for i in kept)
 
 
-def _powers(base: int, exponents: Iterable[int], *, zero: bool = False) -> tuple[Fraction, ...]:
-    power = ten if base == 10 else two
-    return (*map(power, exponents), *([Fraction(0)] if zero else []))
-
-
-_GAPS = _powers(2, [*range(0, -LAST_BIT, -4), -50, -51, -52, -53])
-_TO_ZERO = _powers(2, [*range(0, -LAST_BIT, -4), -50, -51, -52, -53], zero=True)
-_RANGE = _powers(2, range(-1000, 1001, 50))
-_TILTS = _powers(10, range(0, -18, -1))
+_GAPS = tuple(map(two, (*range(0, -LAST_BIT, -4), -50, -51, -52, -53)))
+_TO_ZERO = (*_GAPS, Fraction(0))
+_RANGE = tuple(map(two, range(-1000, 1001, 50)))
+_TILTS = tuple(map(ten, range(0, -18, -1)))
 SWEEPS = {
     sweep.name: sweep
     for sweep in (
         Sweep("far", "start far from the solid", "distance of the start / radius",
-              _powers(10, range(17)), ONE, far),
+              tuple(map(ten, range(17))), ONE, far),
         Sweep("displaced", "scene far from the coordinate origin",
-              "distance from the origin / radius", _powers(10, range(16)), ONE, displaced),
+              "distance from the origin / radius", tuple(map(ten, range(16))), ONE, displaced),
         Sweep("thin", "needle and disk", "radius / height",
-              _powers(10, range(-15, 16)), ONE, thin),
+              tuple(map(ten, range(-15, 16))), ONE, thin),
         Sweep("tilt-wall", "almost parallel, from near the wall", "angle to the axis, rad",
-              _TILTS, ONE, tilt_wall, weight=2),
+              _TILTS, ONE, tilt, weight=2),
         Sweep("tilt-axis", "almost parallel, from far up the axis", "angle to the axis, rad",
-              _TILTS, ONE, tilt_axis, weight=2),
+              _TILTS, ONE, partial(tilt, height=FAR_UP), weight=2),
         Sweep("gap-inside", "almost tangent, inside", "gap to tangency / radius",
-              _GAPS, ONE, gap_inside, 2),
+              _GAPS, ONE, partial(gap, sign=-1), 2),
         Sweep("gap-outside", "almost tangent, outside", "gap to tangency / radius",
-              _GAPS, ONE, gap_outside, 2),
+              _GAPS, ONE, partial(gap, sign=1), 2),
         Sweep("start", "start near the wall", "distance from the wall / radius",
               _TO_ZERO, ONE, start, 2, weight=8),
         Sweep("faces", "Boolean faces close together", "distance between the faces",
@@ -419,7 +399,7 @@ SWEEPS = {
               _RANGE, ONE, speed, 2),
         Sweep("scale", "small and large scenes", "size of the scene", _RANGE, ONE, scale, 2),
         Sweep("hard", "hard to round", "distance from a tie of two doubles",
-              _powers(2, (-20, -40, -80, -120, -160, -240, -320, -480, -640, -800, -1000)),
+              tuple(map(two, (-20, -40, -80, -120, -160, -240, -320, -480, -640, -800, -1000))),
               two(-20), hard, 2, rounding=True),
     )
 }  # fmt: skip

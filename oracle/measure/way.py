@@ -42,18 +42,8 @@ Solve = Callable[[Sequence[Case]], list[Answered]]
 Ready = Callable[[Sequence[Case]], Callable[[], Any]]
 Intersect = Callable[[Solid, Ray], Iterable[tuple[float, float]]]
 ALL = frozenset(SOLIDS)
-PRECISIONS = (
-    "float64",
-    "float32",
-    "longdouble",
-    "double-double",
-    "mpmath",
-    "interval",
-    "symbolic",
-    "exact",
-    "mesh",
-    "client",
-)
+PRECISIONS = ("float64", "float32", "longdouble", "double-double", "mpmath", "interval", "symbolic",
+              "exact", "mesh", "client")  # fmt: skip
 FAILURES = (ArithmeticError, ValueError, TypeError, RecursionError)
 """What a computation may raise that is a failure to answer, and no fault of ours."""
 AHEAD = 256
@@ -130,10 +120,16 @@ def lazily(make: Callable[[], Solve]) -> Solve:
     return lambda cases: once()(cases)
 
 
+def function(name: str) -> Callable[..., Any]:
+    """Return the function `module:function`, its module loaded now."""
+    module, _, own = name.partition(":")
+    call: Callable[..., Any] = getattr(import_module(module), own)
+    return call
+
+
 def called(name: str) -> Solve:
     """Return the `solve` of a function `module:function`, called directly."""
-    module, _, function = name.partition(":")
-    return lazily(lambda: one_by_one(getattr(import_module(module), function)))
+    return lazily(lambda: one_by_one(function(name)))
 
 
 def missing(names: Iterable[str]) -> list[str]:

@@ -8,6 +8,7 @@ is no valid case is hatched; what an interrupted map has not reached stays white
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import groupby
 from math import ceil, isinf, log10
 from pathlib import Path
 from textwrap import shorten, wrap
@@ -15,6 +16,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import LinearSegmentedColormap, LogNorm, to_rgb
 from matplotlib.figure import Figure
@@ -164,17 +166,11 @@ def _numbers(drawn: Figure, axes: Axes, found: Map) -> list[Any]:
     norm = LogNorm(least, high, clip=True)
     known = {at: cell for at, cell in found.cells.items() if not cell.refused}
     _image(axes, found, {at: _shade(cell, shades, norm) for at, cell in known.items()})
-    bar = drawn.add_axes((LEGEND, 0.825, 0.375, 0.03))
-    bar.imshow(
-        shades(np.linspace(0, 1, 256))[None, :, :3],
-        aspect="auto",
-        extent=(log10(least), log10(high), 0, 1),
-    )
-    bar.set_yticks([])
-    bar.grid(visible=False)
-    bar.set_xticks([log10(x) for x in _marks(least, limit, high)])
-    bar.set_xticklabels([plain(x) for x in _marks(least, limit, high)])
-    bar.axvline(log10(limit), color=INK, linewidth=1.2)
+    bar, marks = drawn.add_axes((LEGEND, 0.825, 0.375, 0.03)), _marks(least, limit, high)
+    drawn.colorbar(ScalarMappable(norm, shades), cax=bar, orientation="horizontal")
+    bar.set_xticks(marks, [plain(x) for x in marks])
+    bar.minorticks_off()
+    bar.axvline(limit, color=INK, linewidth=1.2)
     level = "the bound of stable" if found.show == "k" else "1 ulp"
     bar.set_title(f"{found.show}; the mark is {level}", fontsize=9, loc="left", color=INK)
     handles = []
@@ -211,15 +207,11 @@ def _hatched(axes: Axes, found: Map) -> list[Any]:
     refused = sorted((j, i) for (i, j), cell in found.cells.items() if cell.refused)
     if not refused:
         return []
-    start = end = refused[0]
-    for here in [*refused[1:], (refused[-1][0] + 2, 0)]:
-        if here == (end[0], end[1] + 1):
-            end = here
-            continue
-        left, right = (start[1] - 0.5) * step, (end[1] + 0.5) * step
-        low, high = (start[0] - 0.5) * step, (start[0] + 0.5) * step
+    for (j, _), run in groupby(enumerate(refused), lambda at: (at[1][0], at[1][1] - at[0])):
+        _, columns = zip(*(at for _, at in run), strict=True)
+        left, right = (columns[0] - 0.5) * step, (columns[-1] + 0.5) * step
+        low, high = (j - 0.5) * step, (j + 0.5) * step
         runs.append([(left, low), (right, low), (right, high), (left, high)])
-        start = end = here
     look: dict[str, Any] = {"facecolor": REFUSED, "edgecolor": "#9a9a9a", "hatch": "////"}
     axes.add_collection(PolyCollection(runs, linewidths=0, zorder=1, **look))
     first = next(cell.refused for cell in found.cells.values() if cell.refused)

@@ -85,10 +85,7 @@ def test_fifty_digits_do_not_round_what_is_hard() -> None:
 
 
 FEW = Itinerary(
-    (BY_NAME["textbook"], BY_NAME["oracle"]),
-    (SWEEPS["far"], SWEEPS["hard"]),
-    quick=True,
-    workers=1,
+    (BY_NAME["textbook"], BY_NAME["oracle"]), (SWEEPS["far"], SWEEPS["hard"]), quick=True, workers=1
 )
 
 

@@ -12,15 +12,7 @@ from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, Ray, Solid
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.levels import Judge
-from raycert.oracle.measure.rays import (
-    ARRAYS,
-    LEAVES,
-    SETS,
-    SOLIDS,
-    TIES,
-    arrays,
-    rays_of,
-)
+from raycert.oracle.measure.rays import ARRAYS, LEAVES, SETS, SOLIDS, TIES, arrays, rays_of
 from raycert.oracle.measure.way import Case, exact
 
 SEEDED = {

@@ -26,7 +26,7 @@ from raycert.cases.model import (
 from raycert.oracle.client.dialogue import Unusable
 from raycert.oracle.client.target import target
 from raycert.oracle.measure.catalog import BY_NAME, WAYS, chosen, here
-from raycert.oracle.measure.digits import Box, Undecided, with_intervals
+from raycert.oracle.measure.digits import Box, Undecided, in_intervals
 from raycert.oracle.measure.errors import referees
 from raycert.oracle.measure.facets import SIDES
 from raycert.oracle.measure.quadratics import DOUBLES, frame, printed, q_root, textbook
@@ -109,7 +109,7 @@ def test_intervals_are_right_or_say_nothing() -> None:
         assert mine is None or mine == judge.expected
     solid, ray = rays_of("ties", 4)[0]
     beside = Ray((ray.origin[0], 2.0**-900, ray.origin[2]), ray.direction)
-    assert with_intervals()([Case(solid, beside)]) == [None]
+    assert in_intervals([Case(solid, beside)]) == [None]
 
 
 def test_ties_are_rounded_by_who_sees_that_they_are_none() -> None:
