@@ -1,18 +1,5 @@
 """A set of rays is asked: by name and seed always the same, on every machine.
 
-    random    rays from a few lengths away at a capped cylinder; one in five or so misses
-    far       the same from 1e2 to 1e8 radii away
-    thin      radius over height from 1e-3 to 1e-9
-    tilted    1e-2 to 1e-8 rad off the axis, from near the wall, of a cylinder as long as it takes
-    tangent   past the axis at r (1 +- 10^-k), k to 15, and at r; one in two starts there
-    rim       at the rim, 10^-k radii beside it
-    tiny      random, the scene 2^-500 times as large; in one half the direction too
-    huge      random, 2^500 times as large
-    boolean   random rays at four trees of all solids
-    ties      t within 2^-2j of the middle between two doubles: constructed to be hard to round
-    axis-aligned  of full precision, along the axes; many coordinates are the solid's own
-    touching  small integers throughout: each ray touches, at halves and thirds
-
 Each set has four solids, with as many rays each: a batch needs many rays of one solid. They are
 sketched in exact numbers as the samples of sweeps are, and rounded to doubles once.
 
@@ -87,6 +74,7 @@ def _aimed(draw: Draw, body: Body, place: Frame, back: Number) -> Sample:
 
 
 def _random(draw: Draw, number: int) -> Rays:
+    """Return rays from a few lengths away; one in five or so misses."""
     body, place = _can(draw)
     size = body.radius + body.q[2]
     return lambda i: _aimed(draw, body, place, real(draw, 0.5, 3) * size)
@@ -122,6 +110,7 @@ def _spoke(draw: Draw) -> tuple[Fraction, Fraction]:
 
 
 def _tangent(draw: Draw, number: int) -> Rays:
+    """Return rays past the axis at r (1 +- 10^-k), and at r; one in two starts there."""
     body, place = _can(draw)
 
     def ray(i: int) -> Sample:
@@ -150,6 +139,7 @@ def _rim(draw: Draw, number: int) -> Rays:
 
 def _scaled(k: Fraction) -> Callable[[Draw, int], Rays]:
     def scaled(draw: Draw, number: int) -> Rays:
+        """Return random rays, every other direction scaled too."""
         ray = _random(draw, number)
 
         def larger(i: int) -> Sample:
@@ -198,6 +188,7 @@ def _ties(draw: Draw, number: int) -> Rays:
 
 
 def _aligned(draw: Draw, number: int) -> Rays:
+    """Return rays of full precision, many of whose coordinates are the solid's own."""
     p = (real(draw, -1, 1), real(draw, -1, 1), real(draw, -1, 1))
     body = rod(p, plus(p, Z, real(draw, 1, 2)), Fraction(7, 10))
 
@@ -225,21 +216,21 @@ def _touching(draw: Draw, number: int) -> Rays:
 
 
 TIES = (30, 40, 60, 80, 120, 200, 300, 500)
-SETS: dict[str, Callable[[Draw, int], Rays]] = {
-    "random": _random,
-    "far": _far,
-    "thin": _thin,
-    "tilted": _tilted,
-    "tangent": _tangent,
-    "rim": _rim,
-    "tiny": _scaled(two(-500)),
-    "huge": _scaled(two(500)),
-    "boolean": _boolean,
-    "ties": _ties,
-    "axis-aligned": _aligned,
-    "touching": _touching,
+SETS: dict[str, tuple[str, Callable[[Draw, int], Rays]]] = {
+    "random": ("random rays at capped cylinders", _random),
+    "far": ("starts 1e2 to 1e8 radii away", _far),
+    "thin": ("radius over height 1e-3 to 1e-9", _thin),
+    "tilted": ("1e-2 to 1e-8 rad off a long axis", _tilted),
+    "tangent": ("within 1e-3 to 1e-15 r of tangency", _tangent),
+    "rim": ("within 1e-3 to 1e-15 r of the rim", _rim),
+    "tiny": ("scenes 2^-500 times as large", _scaled(two(-500))),
+    "huge": ("scenes 2^500 times as large", _scaled(two(500))),
+    "boolean": ("trees of all solids", _boolean),
+    "ties": ("constructed to be hard to round", _ties),
+    "axis-aligned": ("rays along the coordinate axes", _aligned),
+    "touching": ("rays in tangent planes, small integers", _touching),
 }
-"""From what is drawn, and the number of the solid, to its rays."""
+"""What the rays of a set are, and how they are drawn: from the number of the solid on."""
 
 
 def rays_of(name: str, rays: int, seed: int = 1) -> list[Case]:
@@ -248,7 +239,7 @@ def rays_of(name: str, rays: int, seed: int = 1) -> list[Case]:
     Of each solid, fewer rays are the first of more.
     """
     draws = (Draw(Dice(f"bench {name} {seed} {n}"), BINARY64) for n in range(SOLIDS))
-    each = [SETS[name](own, n) for n, own in enumerate(draws)]
+    each = [SETS[name][1](own, n) for n, own in enumerate(draws)]
     return [ray(i).posed() for ray in each for i in range(-(-rays // SOLIDS))]
 
 

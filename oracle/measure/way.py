@@ -16,17 +16,17 @@ from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
 from math import isnan
+from time import perf_counter
 from typing import Any, NamedTuple
 
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import SOLIDS, Ray, Solid, types
 from raycert.cases.protocol import Reply
-from raycert.oracle.client.dialogue import Dialogue, Limits, Question, Target, Unusable, fresh_ids
-from raycert.oracle.client.process import Broken
-from raycert.oracle.client.replay import run
+from raycert.oracle.client.dialogue import Limits, Question, Target, Unusable
+from raycert.oracle.client.replay import Replay, greet, run
 from raycert.oracle.exact.intervals import expected
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.measure.clock import Timed, wall
+from raycert.oracle.measure.clock import Timed
 
 
 class Case(NamedTuple):
@@ -138,9 +138,7 @@ def missing(names: Iterable[str]) -> list[str]:
 
 def client(name: str, target: Target) -> Way:
     """Return a client as a way. Raises `Unusable` if it cannot start, or gives no lists."""
-    began = target.open(Limits(), fresh_ids())
-    began.kill()
-    hello = began.hello
+    hello = greet(target)
     if hello.answers != "intervals":
         raise Unusable(
             f"{name!r} answers {hello.answers!r}, one number or none. Errors of lists are compared "
@@ -176,29 +174,13 @@ def _list(outcome: object) -> Answered:
 
 def _timed(target: Target, cases: Sequence[Case]) -> Timed:
     """Return how long a client that has said hello takes; with its restarts, if it breaks off."""
-    limits, asked = Limits(), questions(cases)
-    dialogue = target.open(limits, fresh_ids())
-
-    def converse() -> None:
-        try:
-            _converse(dialogue, asked, limits.window)
-        except Broken:
-            run(target, asked, limits)
-        except OverflowError:
-            return
-
+    ticks: list[float] = []
+    replay = Replay(target, questions(cases), Limits(), lambda _: ticks.append(perf_counter()))
+    began = perf_counter()
     try:
-        return wall(converse)
+        replay.all()
+    except OverflowError:
+        ticks.append(perf_counter())
     finally:
-        dialogue.kill()
-
-
-def _converse(dialogue: Dialogue, asked: list[Question], window: int) -> None:
-    at = 0
-    while at < len(asked) or dialogue.owed:
-        room = window - dialogue.owed
-        if room > 0 and at < len(asked):
-            dialogue.ask(asked[at : at + room])
-            at += room
-        for _ in dialogue.answers():
-            pass
+        replay.kill()
+    return Timed(max(ticks, default=began) - began)

@@ -16,6 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from raycert.oracle.measure.race import Figures, pareto
+from raycert.oracle.measure.rays import SETS
 from raycert.oracle.plots.style import FAINT, INK, LOOKS, PAPER, apart, decades, figure
 
 LEAST_ULPS, LEAST_K = 0.5, 1 / 16
@@ -35,20 +36,6 @@ READING = (
     "grey lines: prisms of n sides and more",
 )
 SIZES = {"D": 0.92, "^": 1.4, "v": 1.4, "p": 1.12, "h": 1.12}
-WORDS = {
-    "random": "random rays at capped cylinders",
-    "far": "starts 1e2 to 1e8 radii away",
-    "thin": "radius over height 1e-3 to 1e-9",
-    "tilted": "1e-2 to 1e-8 rad off a long axis",
-    "tangent": "within 1e-3 to 1e-15 r of tangency",
-    "rim": "within 1e-3 to 1e-15 r of the rim",
-    "tiny": "scenes 2^-500 times as large",
-    "huge": "scenes 2^500 times as large",
-    "boolean": "trees of all solids",
-    "ties": "constructed to be hard to round",
-    "axis-aligned": "rays along the coordinate axes",
-    "touching": "rays in tangent planes, small integers",
-}
 
 
 def draw(rows: Sequence[Figures], about: str) -> Figure:
@@ -69,7 +56,7 @@ def draw(rows: Sequence[Figures], about: str) -> Figure:
     _above(right, 64, "stable to 64")
     _above(left, LEAST_ULPS, "0.5 ulp")
     scenario = rows[0].scenario
-    drawn.text(0.07, 0.945, f"{scenario}: {WORDS.get(scenario, '')}", size=12, color=INK)
+    drawn.text(0.07, 0.945, f"{scenario}: {SETS[scenario][0]}", size=12, color=INK)
     _names(drawn, rows, numbers)
     drawn.text(0.07, 0.02, fill(about, 170), size=7.5, color=FAINT)
     return drawn
