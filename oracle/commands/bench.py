@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import isinf
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from raycert.oracle.measure.errors import Spread
-    from raycert.oracle.measure.files import Effort, Report
+    from raycert.oracle.measure.files import Report
     from raycert.oracle.measure.race import Figures
 
 SECTIONS = {
@@ -103,7 +104,7 @@ def run(sections: Sequence[str], options: dict[str, Any]) -> Report:
     one_thread()
     from raycert.oracle.measure import race
     from raycert.oracle.measure import sections as tables
-    from raycert.oracle.measure.files import Report
+    from raycert.oracle.measure.files import FULL, QUICK, Report
     from raycert.oracle.measure.rays import SETS
 
     known(options["scenarios"], SETS, "--scenario")
@@ -111,7 +112,9 @@ def run(sections: Sequence[str], options: dict[str, Any]) -> Report:
         _check_needs(name)
     if options["out"] is not None:
         check_writable(options["out"], "--out")
-    report = Report(options["seed"], effort(options["quick"], options["rays"]))
+    effort = QUICK if options["quick"] else FULL
+    rays = options["rays"] or effort.rays
+    report = Report(options["seed"], replace(effort, rays=rays))
     for name in sections:
         if report.interrupted:
             break
@@ -131,15 +134,6 @@ def run(sections: Sequence[str], options: dict[str, Any]) -> Report:
 
 def _is_quick(mesh: str) -> bool:
     return mesh.rpartition("-")[2] in QUICK_SIDES
-
-
-def effort(quick: bool, rays: int | None) -> Effort:
-    from dataclasses import replace
-
-    from raycert.oracle.measure.files import FULL, QUICK
-
-    effort = QUICK if quick else FULL
-    return effort if rays is None else replace(effort, rays=rays)
 
 
 def _check_needs(name: str) -> None:

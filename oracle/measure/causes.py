@@ -82,16 +82,11 @@ def anchor(shape: Shape) -> Exact:
     return leaf.center if isinstance(leaf, Ball) else leaf.p
 
 
-def magnitude(numbers: Exact) -> int:
+def magnitude(*numbers: Number) -> int:
     """Return the e for which the largest of numbers, not all zero, is in [1/2, 1) 2^e."""
     largest = max(abs(Fraction(number)) for number in numbers)
     e = largest.numerator.bit_length() - largest.denominator.bit_length()
     return e + 1 if largest >= two(e) else e
-
-
-def power(x: Number) -> int:
-    """Return about log2 of a number that is not 0."""
-    return magnitude((x, 0, 0))
 
 
 def _size(sample: Sample) -> Number:
@@ -102,12 +97,12 @@ def _size(sample: Sample) -> Number:
 
 def scaled(sample: Sample) -> Sample | None:
     """Return it with the radius and the direction about as long as 1."""
-    shrink = -power(_size(sample))
-    slow = -magnitude(sample.direction)
+    shrink = -magnitude(_size(sample))
+    slow = -magnitude(*sample.direction)
     if not shrink and not slow:
         return None
     frame = sample.frame.scaled(two(shrink))
-    slow -= power(frame.stretch)  # the frame stretches directions too
+    slow -= magnitude(frame.stretch)  # the frame stretches directions too
     return replace(sample, frame=frame, direction=times(two(slow), sample.direction))
 
 
@@ -116,13 +111,8 @@ def at_origin(sample: Sample) -> Sample | None:
     p = anchor(sample.shape)
     if p == (0, 0, 0) and sample.frame.shift == (0, 0, 0):
         return None
-    back = times(-1, p)
-    return Sample(
-        moved(sample.shape, back),
-        plus(sample.origin, back),
-        sample.direction,
-        sample.frame.moved((0, 0, 0)),
-    )
+    back, frame = times(-1, p), sample.frame.moved((0, 0, 0))
+    return Sample(moved(sample.shape, back), plus(sample.origin, back), sample.direction, frame)
 
 
 def beside(sample: Sample) -> Sample | None:
@@ -204,8 +194,8 @@ def start_distance(sample: Sample) -> float:
 
 def doublings(sample: Sample) -> int:
     """Return how many doublings the lengths or the direction are away from about 1."""
-    size = abs(power(_size(sample)))
-    return max(size, abs(magnitude(sample.direction) + power(sample.frame.stretch)))
+    size = abs(magnitude(_size(sample)))
+    return max(size, abs(magnitude(*sample.direction) + magnitude(sample.frame.stretch)))
 
 
 # Causes.

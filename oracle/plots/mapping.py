@@ -41,7 +41,7 @@ from raycert.oracle.map.legend import (
 )
 from raycert.oracle.map.raster import At
 from raycert.oracle.map.sampling import NUMBERS, Cell, Kind, Map
-from raycert.oracle.plots.style import DPI, FAINT, INK, PAPER, figure, plain, styled
+from raycert.oracle.plots.style import FAINT, INK, PAPER, figure, plain, styled, write
 
 WIDTH, HEIGHT = 10.4, 6.4
 SQUARE = (0.085, 0.115, 0.475, 0.772)
@@ -79,29 +79,20 @@ def draw(found: Map, title: str) -> Figure:
     handles += _curves(axes, found)
     handles.append(_case(axes))
     _label(axes, found)
+    below = shorten(subtitle(found), 118)
     drawn.text(SQUARE[0], 0.955, title, fontsize=11.5, color=INK, weight="bold", va="center")
-    drawn.text(
-        SQUARE[0], 0.918, shorten(subtitle(found), 118), fontsize=9, color=FAINT, va="center"
-    )
+    drawn.text(SQUARE[0], 0.918, below, fontsize=9, color=FAINT, va="center")
     drawn.legend(
-        handles=handles,
-        loc="upper left",
+        handles=handles, loc="upper left", handlelength=2.4, labelspacing=0.75, borderaxespad=0,
         bbox_to_anchor=(LEGEND, 0.887 if found.show not in NUMBERS else 0.75),
-        handlelength=2.4,
-        labelspacing=0.75,
-        borderaxespad=0,
-    )
+    )  # fmt: skip
     return drawn
 
 
 def save(found: Map, title: str, path: Path) -> None:
     """Write the picture of a map as PNG or SVG, by the name of the file; no date is in it."""
     with styled():
-        drawn = draw(found, title)
-        about = {"Software": "raycert"}
-        if path.suffix.lower() == ".svg":
-            about = {"Date": None, "Creator": "raycert"}  # type: ignore[dict-item]
-        drawn.savefig(path, metadata=about, dpi=DPI)
+        write(draw(found, title), path)
 
 
 def _extent(found: Map) -> tuple[float, float, float, float]:

@@ -20,6 +20,7 @@ from matplotlib.figure import Figure
 
 DPI = 160
 INK, FAINT, GRID, PAPER = "#1a1a1a", "#767676", "#dddddd", "#ffffff"
+UNDATED: Any = {"Date": None, "Creator": "raycert"}
 RC: Any = {
     "font.family": "DejaVu Sans",
     "font.size": 9.0,
@@ -99,16 +100,22 @@ def figure(width: float, height: float) -> Figure:
 
 def save(drawn: Figure, folder: Path, name: str) -> list[Path]:
     """Write a figure as SVG and PNG and return both paths. Within `styled`."""
-    svg, png = folder / f"{name}.svg", folder / f"{name}.png"
-    drawn.savefig(svg, metadata={"Date": None, "Creator": "raycert"})
-    drawn.savefig(png, metadata={"Software": "raycert"}, dpi=DPI)
-    return [svg, png]
+    paths = [folder / f"{name}.svg", folder / f"{name}.png"]
+    for path in paths:
+        write(drawn, path)
+    return paths
+
+
+def write(drawn: Figure, path: Path) -> None:
+    """Write a figure as SVG or PNG, by the name of the file; no date is in it. Within `styled`."""
+    about = UNDATED if path.suffix.lower() == ".svg" else {"Software": "raycert"}
+    drawn.savefig(path, metadata=about, dpi=DPI)
 
 
 def as_svg(drawn: Figure) -> str:
     """Return a figure as SVG text. Within `styled`."""
     text = StringIO()
-    drawn.savefig(text, format="svg", metadata={"Date": None, "Creator": "raycert"})
+    drawn.savefig(text, format="svg", metadata=UNDATED)
     return text.getvalue()
 
 

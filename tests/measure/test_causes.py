@@ -224,7 +224,7 @@ def near_power(new: Surd, old: Surd, factor: Fraction) -> bool:
     if not other:
         return not one
     ratio = one / other
-    return ratio == two(magnitude((ratio, 0, 0)) - 1) and factor / 64 <= ratio <= factor * 64
+    return ratio == two(magnitude(ratio) - 1) and factor / 64 <= ratio <= factor * 64
 
 
 def test_p_at_the_origin() -> None:
@@ -277,4 +277,4 @@ def test_every_remedy_gives_a_question_or_none() -> None:
 
 
 def test_magnitudes() -> None:
-    assert [magnitude((x, 0, 0)) for x in (1, Fraction(1, 2), 3, Fraction(1, 3))] == [1, 0, 2, -1]
+    assert [magnitude(x) for x in (1, Fraction(1, 2), 3, Fraction(1, 3))] == [1, 0, 2, -1]
