@@ -24,7 +24,7 @@ SEEDED = {
     "rim": "feed4674be094c01",
     "tiny": "e1692d4c54c16c66",
     "huge": "f8e9d32b67919b44",
-    "boolean": "2421125d5304184f",
+    "boolean": "368ffea8ab1a2ff9",
     "ties": "5d228ede95a68a63",
     "axis-aligned": "45621d68e750a750",
     "touching": "327c39a479dbf01f",
