@@ -160,8 +160,7 @@ ON_A_PLANE = (
         ("down", *DOWN, touch(3)), ("in-the-plane", *FLAT, touch(2)),
         ("to-the-point", *POINT, touch(1))),
     *bench("less", "a sphere less the plane below", less(BUBBLE, FLOOR), TOUCHING,
-        ("down", *DOWN, pair(1, 3)), ("in-the-plane", *FLAT, MISS),
-        ("to-the-point", *POINT, None)),
+        ("down", *DOWN, pair(1, 3)), ("in-the-plane", *FLAT, MISS), ("to-the-point", *POINT, None)),
     *bench("floor-less", "the plane less a sphere on it", less(FLOOR, BUBBLE), TOUCHING,
         ("down", *DOWN, pair(3, None)), ("in-the-plane", *FLAT, ALWAYS),
         ("to-the-point", *POINT, pair(1, None))),
@@ -174,16 +173,14 @@ IN_A_TUBE = (
     *bench("fill", "a tube less a sphere that fills it", less(SLOT, MARBLE), SHARED,
         ("across", *FLAT, MISS), ("through-the-circle", *CIRCLE, pair(2, 3)),
         ("along", (0, 0, -12), (0, 0, 4), spans((0, 2), (4, None))),
-        ("in-the-wall", (4, 0, -12), (0, 0, 4), ALWAYS),
-        ("tangent", (-8, 4, 0), (4, 0, 0), MISS)),
+        ("in-the-wall", (4, 0, -12), (0, 0, 4), ALWAYS), ("tangent", (-8, 4, 0), (4, 0, 0), MISS)),
     *bench("both", "a sphere in a tube, intersected", all_of(SLOT, MARBLE), SHARED,
         ("across", *FLAT, ONE), ("through-the-circle", *CIRCLE, TWO),
         ("in-the-wall", (4, 0, -12), (0, 0, 4), touch(3)),
         ("tangent", (-8, 4, 0), (4, 0, 0), AT_2)),
     *bench("either", "a sphere in a tube, united", any_of(SLOT, MARBLE), SHARED,
         ("across", *FLAT, ONE), ("through-the-circle", *CIRCLE, ONE),
-        ("in-the-wall", (4, 0, -12), (0, 0, 4), ALWAYS),
-        ("tangent", (-8, 4, 0), (4, 0, 0), AT_2)),
+        ("in-the-wall", (4, 0, -12), (0, 0, 4), ALWAYS), ("tangent", (-8, 4, 0), (4, 0, 0), AT_2)),
     *bench("poke", "a sphere less the tube around it", less(MARBLE, SLOT), SHARED,
         ("across", *FLAT, MISS), ("through-the-circle", *CIRCLE, MISS),
         ("tangent", (-8, 4, 0), (4, 0, 0), MISS)),
@@ -251,8 +248,7 @@ SHELLS = (
         ("inside-out", (1, 0, 1), (1, 2, 3)), ("missing-the-hole", (-8, 3, 0), (4, 0, 0))),
     *bench("wide-shell", "a shell of radii 25 and 17", less(ball(25), ball(17)), HOLLOW,
         ("at-15", (-32, 15, 0), (4, 0, 0), spans((3, 6), (10, 13))),
-        ("at-8", (-32, 8, 0), (1, 0, 0)),
-        ("tangent-to-the-hole", (-32, 17, 0), (4, 0, 0))),
+        ("at-8", (-32, 8, 0), (1, 0, 0)), ("tangent-to-the-hole", (-32, 17, 0), (4, 0, 0))),
 )  # fmt: skip
 
 
@@ -409,8 +405,7 @@ ENDLESS = (
         ("in-both-walls", (4, 0, -8), (0, 0, 4), ALWAYS), ("skew", (-8, 8, 8), (4, -4, -4), None)),
     *bench("tunnel", "a slab less a tube", TUNNEL, SHARED,
         ("level", (-8, 0, 0), (4, 0, 0), spans((0, 1), (3, None))),
-        ("in-the-slab-face", (-8, 0, 4), (4, 0, 0), ALWAYS),
-        ("down", (0, 0, 8), (0, 0, -4), MISS),
+        ("in-the-slab-face", (-8, 0, 4), (4, 0, 0), ALWAYS), ("down", (0, 0, 8), (0, 0, -4), MISS),
         ("down-the-tangent", (4, 0, 8), (0, 0, -4), pair(1, 3))),
 )  # fmt: skip
 

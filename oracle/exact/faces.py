@@ -63,29 +63,19 @@ class Surface:
 
 def surfaces(leaf: Leaf, grid: Grid) -> tuple[Surface, ...]:
     """Return the faces of a leaf along the ray, its curved face first."""
+    curved: Quadric | None = None
+    flat: tuple[tuple[str, Plane], ...] = ()
     match leaf:
         case HalfSpace():
-            return (_flat("plane", half_space(leaf, grid)),)
+            flat = (("plane", half_space(leaf, grid)),)
         case Sphere():
-            return (_curved(ball(leaf, grid)),)
-        case InfiniteCylinder():
-            return (_curved(wall(leaf, grid)),)
-        case Slab():
-            return _caps(leaf, grid)
-    return (_curved(wall(leaf, grid)), *_caps(leaf, grid))
-
-
-def _caps(leaf: Slab | Cylinder, grid: Grid) -> tuple[Surface, Surface]:
-    p, q = caps(leaf, grid)
-    return (_flat("cap_p", p), _flat("cap_q", q))
-
-
-def _flat(face: str, plane: Plane) -> Surface:
-    return Surface(face, 0, plane.b, plane.c)
-
-
-def _curved(quadric: Quadric) -> Surface:
-    return Surface("side", quadric.a, 2 * quadric.b, quadric.c)
+            curved = ball(leaf, grid)
+        case InfiniteCylinder() | Cylinder():
+            curved = wall(leaf, grid)
+    if isinstance(leaf, Slab | Cylinder):
+        flat = tuple(zip(("cap_p", "cap_q"), caps(leaf, grid), strict=True))
+    sides = (Surface("side", curved.a, 2 * curved.b, curved.c),) if curved else ()
+    return (*sides, *(Surface(face, 0, plane.b, plane.c) for face, plane in flat))
 
 
 @dataclass(frozen=True, slots=True)
