@@ -10,17 +10,18 @@ import math
 from itertools import combinations
 
 from raycert.cases.model import (
-    FIELDS,
     HalfSpace,
     InfiniteCylinder,
     Leaf,
     Ray,
     Slab,
     Solid,
-    Sphere,
     Tree,
     Vector,
+    axis,
     leaves,
+    points,
+    radius,
 )
 from raycert.cases.vectors import dot, minus
 
@@ -39,14 +40,11 @@ def is_lattice(solid: Solid, ray: Ray) -> bool:
     that drops that touch ends somewhere else, and both ends are right.
     """
     parts = [leaf for _, leaf in leaves(solid)]
-    points, vectors, lengths = [ray.origin], [ray.direction], list[float]()
-    for leaf in parts:
-        for name in FIELDS[type(leaf)]:
-            value = getattr(leaf, name)
-            (lengths if name == "radius" else vectors if name == "normal" else points).append(value)
-    if not (all(_is_whole(point) for point in points) and _are_near(points)):
+    places = [ray.origin, *(point for leaf in parts for point in points(leaf))]
+    if not (all(_is_whole(place) for place in places) and _are_near(places)):
         return False
-    vectors += [minus(x.q, x.p) for x in parts if not isinstance(x, HalfSpace | Sphere)]
+    lengths = [radius(leaf, 1.0) for leaf in parts]
+    vectors = [ray.direction, *(w for leaf in parts if (w := axis(leaf)) is not None)]
     along = [_length_along_an_axis(vector) for vector in vectors]
     if not all(_is_small_power_of_two(length) for length in lengths + along):
         return False

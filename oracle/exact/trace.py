@@ -6,6 +6,7 @@ decided it, as they were found. Booleans combine the lists of their parts.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 from raycert.cases.model import (
@@ -33,7 +34,6 @@ from raycert.cases.table import (
 )
 from raycert.oracle.exact.grid import Grid
 from raycert.oracle.exact.intervals import (
-    EVERYTHING,
     NOTHING,
     Intervals,
     intersection,
@@ -51,6 +51,8 @@ from raycert.oracle.exact.leaf import (
     wall,
 )
 from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, sign
+
+ENDS = {"0": ZERO, "inf": INFINITY}
 
 
 class Decision(NamedTuple):
@@ -151,14 +153,7 @@ def _round(face: Quadric, grid: Grid, path: str, decisions: list[Decision]) -> I
 
     row, known = PROBLEM_1.decide(signs)
     decisions.append(Decision(path, row, known))
-    match row.name:
-        case "along-inside":
-            return EVERYTHING
-        case "through" if roots:
-            return (roots,)
-        case "from-inside" if roots:
-            return ((ZERO, roots[1]),)
-    return NOTHING
+    return _emitted(row, lambda end: (roots or face.roots(grid, disc))[end == "t2"])
 
 
 def _half_space(plane: Plane, grid: Grid, path: str, decisions: list[Decision]) -> Intervals:
@@ -166,14 +161,7 @@ def _half_space(plane: Plane, grid: Grid, path: str, decisions: list[Decision]) 
     signs = {"up": sign(plane.c), "vn": sign(plane.b)}
     row, known = HALF_SPACE.decide(signs.__getitem__)
     decisions.append(Decision(path, row, known))
-    match row.name:
-        case "A":
-            return EVERYTHING
-        case "B":
-            return ((ZERO, plane.crossing(grid)),)
-        case "C":
-            return ((plane.crossing(grid), INFINITY),)
-    return NOTHING
+    return _emitted(row, lambda _: plane.crossing(grid))
 
 
 def _slab(
@@ -182,18 +170,17 @@ def _slab(
     """Problem 2: the slab between the two planes."""
     row, known = PROBLEM_2.decide(plane_signs(p_plane, q_plane).__getitem__)
     decisions.append(Decision(path, row, known))
-    match row.name:
-        case "AE":
-            return EVERYTHING
-        case "BE":
-            return ((ZERO, p_plane.crossing(grid)),)
-        case "AF":
-            return ((ZERO, q_plane.crossing(grid)),)
-        case "BG":
-            return ((q_plane.crossing(grid), p_plane.crossing(grid)),)
-        case "CF":
-            return ((p_plane.crossing(grid), q_plane.crossing(grid)),)
-    return NOTHING
+    return _emitted(row, lambda end: (p_plane if end == "tp" else q_plane).crossing(grid))
+
+
+def _emitted(row: Row, crossing: Callable[[str], Surd]) -> Intervals:
+    """Return the pairs of a row, `{(0, tp)}` or none, with what `crossing` finds for tp."""
+    if row.pairs == "{}":
+        return NOTHING
+    enter, leave = (
+        ENDS[end] if end in ENDS else crossing(end) for end in row.pairs[2:-2].split(", ")
+    )
+    return ((enter, leave),)
 
 
 def _both(one: Intervals, two: Intervals, path: str, decisions: list[Decision]) -> Intervals:
