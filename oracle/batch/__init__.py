@@ -7,7 +7,7 @@ step carries a bound on its error, derived in `formulas`; what a bound cannot de
     arithmetic  double-double arithmetic without branches, each operation with its bound
     formulas    what decides a lane, and the bounds on every rounding error
     decide      from the formulas to a lane's state and endpoints
-    leaf        a leaf prepared: its constants, exact or bounded
+    constants   a leaf prepared: its constants, exact or bounded
     lanes       rays in the units of a leaf, and the two fast rungs in NumPy
     chunks      the same rungs as loops for a compiler
     compiled    the loops through numba, kept in the user's cache

@@ -17,9 +17,9 @@ from raycert.cases.accept import Numbers
 from raycert.cases.formats import BINARY32, BINARY64, Format
 from raycert.cases.model import Leaf, Ray, Refused, Solid, Tree, leaves
 from raycert.oracle.batch.booleans import Lists, combine, narrowed, set_aside
+from raycert.oracle.batch.constants import LeafPlan, plan
 from raycert.oracle.batch.engines import Engine, engine_of
 from raycert.oracle.batch.lanes import HIT, INTEGER, RUNGS, UNSURE, Codes, Floats, Lanes, Outcomes
-from raycert.oracle.batch.leaf import LeafPlan, plan
 from raycert.oracle.batch.rational import rational
 from raycert.oracle.exact.intervals import expected
 from raycert.oracle.exact.trace import trace

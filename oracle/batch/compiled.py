@@ -18,8 +18,8 @@ from typing import Any
 import numpy as np
 
 from raycert.oracle.batch import arithmetic, chunks, decide, formulas
+from raycert.oracle.batch.constants import LeafPlan
 from raycert.oracle.batch.lanes import UNSURE, Floats, Outcomes
-from raycert.oracle.batch.leaf import LeafPlan
 
 SOURCES: tuple[ModuleType, ...] = (arithmetic, formulas, decide, chunks)
 OUTER = ("run", "probe", "load", "screen", "solve", "join")

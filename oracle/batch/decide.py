@@ -6,7 +6,7 @@ not known.
 
 `screen_*` is the float64 rung of a face and gives a state, `solve_*` the double-double one. Both
 take a ray u + t v, the two points of the leaf, and its numbers `k`: the axis or normal w, its size,
-r^2, r^2 |w|^2 and |w|, as `leaf` prepares them.
+r^2, r^2 |w|^2 and |w|, as `constants` prepares them.
 """
 
 from __future__ import annotations

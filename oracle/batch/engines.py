@@ -18,8 +18,8 @@ import numpy as np
 
 from raycert.oracle.batch import compiled, lanes
 from raycert.oracle.batch.arithmetic import probe
+from raycert.oracle.batch.constants import LeafPlan
 from raycert.oracle.batch.lanes import Floats, Outcomes
-from raycert.oracle.batch.leaf import LeafPlan
 
 INPUT = (1 + 2.0**-30, 2.0**-53, 2.0**-1074, 3.0, 1e300, 1 + 2.0**-52)
 Probe = Callable[[Any], Sequence[float]]

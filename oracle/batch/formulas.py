@@ -30,7 +30,7 @@ The bounds are sums and products of numbers >= 0 in float64, with fewer than 100
 a factor 1 +- u: that, and that 1 / (x - e) exceeds 1 / x, is what `SLACK` is for. `SMALL` is
 a precondition: what is divided by exceeds its error 2^10 times, so 1 / (x - e) <= 1.001 / x.
 
-Preconditions, held by `leaf` for the solid and `Lanes.of` for the ray: every number that enters is
+Preconditions, held by `constants` for the solid and `Lanes.of` for the ray: a number that enters is
 0 or between 2^-100 and 2^100 (for planes 2^-400 and 2^400). Then all are multiples of 2^-152; a
 form of degree 2 in lengths, 2 in the direction and 2 in the axis is one of 2^-912, so that no
 product underflows, nor its error; and none exceeds 2^610. A plane's numbers are multiples of 2^-452

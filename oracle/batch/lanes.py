@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from raycert.oracle.batch.arithmetic import Singles
+from raycert.oracle.batch.constants import ALL, BALL, WALL, LeafPlan
 from raycert.oracle.batch.decide import (
     LEAST,
     MOST,
@@ -28,7 +29,6 @@ from raycert.oracle.batch.decide import (
     solve_slab,
     solve_wall,
 )
-from raycert.oracle.batch.leaf import ALL, BALL, WALL, LeafPlan
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]

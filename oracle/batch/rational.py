@@ -24,10 +24,10 @@ from raycert.oracle.batch.arithmetic import (
     two_prod,
     two_sum,
 )
+from raycert.oracle.batch.constants import PLANES, WALL, LeafPlan
 from raycert.oracle.batch.decide import FAR, LEAST, MOST, NEAR, joined, rounded
 from raycert.oracle.batch.formulas import Bounded2, away, ball, divisor, ends, plane, ratio, wall
 from raycert.oracle.batch.lanes import HIT, KNOWN, MISS, RATIONAL, Floats, Lanes, Mask, Outcomes
-from raycert.oracle.batch.leaf import PLANES, WALL, LeafPlan
 
 Terms = list[Number]
 

@@ -11,6 +11,7 @@ import pytest
 from raycert.cases.model import InfiniteCylinder, Slab, Sphere
 from raycert.oracle.batch import decide, formulas
 from raycert.oracle.batch.arithmetic import heads, minus, offset, size
+from raycert.oracle.batch.constants import WALL, LeafPlan, plan
 from raycert.oracle.batch.formulas import (
     UU,
     U,
@@ -25,7 +26,6 @@ from raycert.oracle.batch.formulas import (
     wall,
 )
 from raycert.oracle.batch.lanes import Lanes
-from raycert.oracle.batch.leaf import WALL, LeafPlan, plan
 from shared.batch_rays import aligned, beside_ties, far, free, grazing, tilted, wrong
 
 Vector = tuple[Fraction, Fraction, Fraction]

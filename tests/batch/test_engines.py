@@ -14,6 +14,7 @@ from raycert.cases.model import Sphere
 from raycert.oracle.batch import compiled, engines
 from raycert.oracle.batch.arithmetic import probe
 from raycert.oracle.batch.blocks import trace_batch
+from raycert.oracle.batch.constants import plan
 from raycert.oracle.batch.engines import (
     ENGINES,
     INPUT,
@@ -22,7 +23,6 @@ from raycert.oracle.batch.engines import (
     engine_of,
     untrustworthy,
 )
-from raycert.oracle.batch.leaf import plan
 from shared.batch_rays import FAMILIES, beside_ties, free
 
 numba = pytest.importorskip("numba")

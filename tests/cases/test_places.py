@@ -27,7 +27,7 @@ PLACES = {
     "oracle.exact.condition": "how its endpoints move with its numbers",
     "oracle.judge.moved": "its size, its thinness, its faces moved",
     "oracle.judge.pixels": "which rays pass it by",
-    "oracle.batch.leaf": "its exact list for many rays",
+    "oracle.batch.constants": "its exact list for many rays",
     "oracle.witness.definition": "its definition, asked point by point",
     "oracle.witness.enclosure": "its formulas in interval arithmetic",
     "oracle.witness.symbols": "its conditions in SymPy",

@@ -10,7 +10,7 @@ import pytest
 
 from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Slab, Sphere
 from raycert.oracle.batch.blocks import trace_batch
-from raycert.oracle.batch.leaf import BALL, PLANES, WALL, plan
+from raycert.oracle.batch.constants import BALL, PLANES, WALL, plan
 from shared.batch_rays import FAMILIES, wrong
 
 ORIGIN, X = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)
