@@ -138,7 +138,6 @@ def _row(file: Path, fmt: Format, id: str | None, why: str) -> Candidate:
 
 
 def _say(checked: Hearing) -> None:
-    """Print what each witness says."""
     from raycert.oracle.witness.testimony import WITNESSES
 
     click.echo(f"exactly {checked.answer}")

@@ -134,7 +134,6 @@ def _made_of(rows: list[GoldenRow], solids: str) -> list[GoldenRow]:
 
 
 def lines(rows: list[GoldenRow], corpus: Corpus) -> Iterator[str]:
-    """Yield the lines of an export, its documentation first."""
     fmt = corpus.format
     yield f"# raycert golden rows, {fmt.name}, corpus {corpus.version}, data CC0"
     yield f"# manifest sha256 {corpus.sha256}"
@@ -148,7 +147,6 @@ def lines(rows: list[GoldenRow], corpus: Corpus) -> Iterator[str]:
 
 
 def cells(row: GoldenRow, fmt: Format) -> Iterator[str]:
-    """Yield the columns of a row."""
     kind, _, solid = _solid(row.solid, fmt).partition(" ")
     yield from (row.id, row.tier, kind, solid, _ray(row.ray, fmt))
     yield _pairs(row.expected, fmt)

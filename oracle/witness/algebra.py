@@ -59,7 +59,6 @@ class Vec:
 
     @property
     def parts(self) -> tuple[Any, Any, Any]:
-        """Return the three numbers."""
         return self.x, self.y, self.z
 
 
@@ -70,7 +69,6 @@ def span(first: int, last: int | None, points: int) -> int:
 
 
 def gaps(points: int) -> int:
-    """Return all the gaps."""
     return sum(2 << 2 * i for i in range(points))
 
 

@@ -41,7 +41,6 @@ class Hearing:
 
     @property
     def disagreed(self) -> bool:
-        """Whether a witness found another list."""
         return any(testimony.outcome == "disagreed" for _, testimony, _ in self.testimonies)
 
 
@@ -94,7 +93,6 @@ class Score:
 
     @property
     def count(self) -> int:
-        """Return how many cases the witness judged."""
         return self.outcomes.total()
 
     def add(self, testimony: Testimony, seconds: float) -> None:

@@ -205,7 +205,6 @@ def _both(vector: Vector) -> Both:
 
 
 def _between(start: Vector, end: Vector) -> Both:
-    """Return end - start."""
     (a, exact_a), (b, exact_b) = _both(end), _both(start)
     return a - b, exact_a - exact_b
 

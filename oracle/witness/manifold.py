@@ -95,7 +95,6 @@ class Viewport:
     high: Fraction
 
     def point(self, x: Vector) -> Vec:
-        """Return a point in the view."""
         return self.scale * (exact(x) - self.middle)
 
     def length(self, x: float | Fraction) -> Fraction:
@@ -107,12 +106,10 @@ class Viewport:
 
     @property
     def window(self) -> Intervals:
-        """Return the window as a list."""
         return ((surd(self.low), surd(self.high)),)
 
 
 def surd(x: Fraction) -> Surd:
-    """Return a fraction as a number of the lists."""
     return fraction(x.numerator, x.denominator)
 
 

@@ -72,7 +72,6 @@ class Placed:
 
     @property
     def still(self) -> bool:
-        """Whether the ray stays at its origin."""
         return not any(slope for _, slope in self.forms)
 
 
@@ -91,7 +90,6 @@ class CastLine:
 
 
 def exact(vector: Vector) -> Vec:
-    """Return three numbers as fractions."""
     return Vec.of(vector, Fraction)
 
 
@@ -103,7 +101,6 @@ def across(w: Vec) -> tuple[Vec, Vec]:
 
 
 def floats(a: Vec) -> tuple[float, float, float]:
-    """Return a vector in doubles."""
     return (float(a.x), float(a.y), float(a.z))
 
 
@@ -123,7 +120,6 @@ def power(size: Fraction) -> Fraction:
 
 
 def two_to(k: int) -> Fraction:
-    """Return 2^k."""
     return Fraction(1 << k) if k >= 0 else Fraction(1, 1 << -k)
 
 

@@ -123,7 +123,6 @@ def _names() -> dict[str, Any]:
 
 
 def _oracle_names(known: dict[str, Any]) -> dict[str, Any]:
-    """Return the oracle's own forms, computed by its code from symbols."""
     grid: Any = _Grid(known["u"].parts, known["v"].parts)
     p, q, r = known["p"].parts, known["q"].parts, known["r"]
     quadric = wall(_leaf(InfiniteCylinder, p=p, q=q, radius=r), grid)

@@ -107,12 +107,10 @@ def length(interval: Interval) -> Fraction | float:
 
 
 def show_pair(a: Surd, b: Surd) -> str:
-    """Return one interval for people."""
     return f"[{decimal(a, 8)}, {decimal(b, 8)}]"
 
 
 def show(sandwich: Sandwich) -> str:
-    """Return both lists for people."""
     inner, outer = (
         ", ".join(show_pair(a, b) for a, b in one) for one in (sandwich.inner, sandwich.outer)
     )

@@ -52,7 +52,6 @@ T, S_AXIS, RADIUS = symbols("t s r", real=True)
 
 
 def named(name: str) -> Vec:
-    """Return a vector of three symbols."""
     return Vec(*symbols(f"{name}1:4", real=True))
 
 

@@ -45,7 +45,6 @@ def fault(
     granted: Level | None = None,
     **steps: Any,
 ) -> Fault:
-    """Return the fault of the base tracer with some steps replaced."""
     tracer = replace(BASE, **steps)
     return Fault(name, does, origin, home, kind, lambda: tracer, granted)
 

@@ -55,13 +55,10 @@ def _divided() -> Pairs:
 
 
 def every(change: Callable[[float], float]) -> Tell:
-    """Return the step that changes every endpoint."""
     return lambda solid, ray, pairs: [(change(a), change(b)) for a, b in pairs]
 
 
 def numbers(change: Callable[[float], float]) -> Read:
-    """Return the step that changes every number of the question."""
-
     def moved(x: Any) -> Any:
         return tuple(map(change, x)) if isinstance(x, tuple) else change(x)
 

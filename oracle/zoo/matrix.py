@@ -65,11 +65,9 @@ class Trials:
 
     @cached_property
     def base(self) -> list[Outcome]:
-        """Return the base's answers."""
         return [Outcome.of(BASE, row, self.format) for row in self.rows]
 
     def malformed(self, row: GoldenRow, answer: Numbers) -> str | None:
-        """Return what is wrong with an answer's form."""
         if row.id not in self.judges:
             self.judges[row.id] = Judge(row.solid, row.ray, self.format, row.tier)
         return self.judges[row.id].malformed(answer)
@@ -197,12 +195,10 @@ class MatrixLine:
 
 
 def line(trials: Trials, fault: Fault) -> MatrixLine:
-    """Return the line of a fault."""
     return MatrixLine(fault, tuple(refusal for _, refusal in trials.tried(fault) if refusal))
 
 
 def form(corpus: Corpus, lines: Sequence[MatrixLine]) -> dict[str, Any]:
-    """Return the matrix as a JSON object."""
     return {
         "corpus": {"version": corpus.version, "manifest_sha256": corpus.sha256},
         "rows": len(corpus.rows),

@@ -34,8 +34,6 @@ Caps = tuple[Pairs, Pairs]
 
 
 def between(low: float, high: float) -> Callable[[Tracer, Sight], Caps]:
-    """Return the caps at two heights above p, in lengths of pq."""
-
     def caps(self: Tracer, s: Sight) -> Caps:
         climb, height, length = dot(s.v, s.w), dot(s.y, s.w), dot(minus(s.y, s.z), s.w)
         above = self.plane(low * length - height, -climb)
@@ -127,7 +125,6 @@ def _surface(self: Tracer, s: Sight) -> Pairs:
 
 
 def _unit_axis(self: Tracer, s: Sight) -> Pairs:
-    """Return the cylinder of length one along pq."""
     return can(self, s._replace(z=minus(s.y, unit(s.w))))
 
 

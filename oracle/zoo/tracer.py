@@ -74,7 +74,6 @@ BITS = 240
 
 
 def norm(a: Vector) -> float:
-    """Return |a|."""
     return root(dot(a, a))
 
 
@@ -103,7 +102,6 @@ def shift(x: float, e: int) -> float:
 
 
 def shifted(a: Vector, e: int) -> Vector:
-    """Return a 2^e."""
     if not e:
         return a
     if type(a[0]) is float and -1022 <= e <= 1022:  # the factor is exact: one rounding, as in shift
@@ -119,12 +117,10 @@ def exponent(*numbers: float) -> int:
 
 
 def fraction(x: float) -> float:
-    """Return a double as the fraction it is."""
     return cast(float, Fraction(x))
 
 
 def single(x: float) -> Single:
-    """Return the binary32 number nearest to a double."""
     return Single(BINARY32.nearest(x))
 
 
@@ -141,7 +137,6 @@ def common(first: Pairs, second: Pairs) -> Pairs:
 
 
 def share(lists: Sequence[Pairs]) -> Pairs:
-    """Return the t in all lists."""
     return reduce(common, lists)
 
 
@@ -157,7 +152,6 @@ def merged(pairs: Pairs) -> Pairs:
 
 
 def unite(lists: Sequence[Pairs]) -> Pairs:
-    """Return the t in any list."""
     return merged([pair for pairs in lists for pair in pairs])
 
 
@@ -220,7 +214,6 @@ def crossed(self: Tracer, s: Sight) -> Pairs:
 
 
 def ball(self: Tracer, s: Sight) -> Pairs:
-    """Return where the ray is in the sphere."""
     return self.chord(s.y, s.v, s.r)
 
 
@@ -231,12 +224,10 @@ def caps(self: Tracer, s: Sight) -> tuple[Pairs, Pairs]:
 
 
 def can(self: Tracer, s: Sight) -> Pairs:
-    """Return where the ray is in the cylinder."""
     return self.share([self.wall(self, s), *self.caps(self, s)])
 
 
 def below(self: Tracer, s: Sight) -> Pairs:
-    """Return where the ray is in the half-space with normal w."""
     return self.plane(dot(s.y, s.w), dot(s.v, s.w))
 
 
@@ -246,7 +237,6 @@ def ahead(pairs: Pairs) -> Pairs:
 
 
 def identity(x: float) -> float:
-    """Return a number unchanged."""
     return x
 
 
@@ -271,7 +261,6 @@ class Tracer:
     tell: Tell = lambda solid, ray, pairs: pairs
 
     def __call__(self, solid: Solid, ray: Ray) -> Pairs:
-        """Return the list of the t >= 0 for which the ray is in the solid."""
         solid, ray = self.read(solid, ray)
         return self.tell(solid, ray, self.node(solid, ray))
 
@@ -319,7 +308,6 @@ class Tracer:
         return Sight(u, y, z, shifted(v, -ve), shifted(w, -we), r, e + small - ve)
 
     def vector(self, a: Vector) -> Vector:
-        """Return the components as numbers to compute with."""
         if self.number is identity:
             return a
         return (self.number(a[0]), self.number(a[1]), self.number(a[2]))
@@ -336,12 +324,10 @@ BASE = Tracer()
 
 
 def unscaled(*_: float) -> int:
-    """Return the exponent 0: nothing is scaled."""
     return 0
 
 
 def unit(w: Vector) -> Vector:
-    """Return w / |w|."""
     return times(1 / norm(w), w)
 
 
@@ -368,7 +354,6 @@ def roots(a: float, b: float, c: float) -> Pairs:
 
 
 def coefficients(y: Vector, v: Vector, r: float) -> tuple[float, float, float]:
-    """Return v.v, v.y and y.y - r^2."""
     return dot(v, v), dot(v, y), dot(y, y) - r * r
 
 
