@@ -20,9 +20,9 @@ from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello
 from raycert.oracle.certify.grading import Grade, usual
 from raycert.oracle.certify.verdict import Touches, by_solid
 from raycert.oracle.judge.answer import First, Listed
-from raycert.oracle.zoo.fault import Fault
 from raycert.oracle.zoo.inhabitants import FAULTS
 from raycert.oracle.zoo.matrix import Outcome, Trials
+from raycert.oracle.zoo.tracer import Fault
 
 SHARE = 0.92
 """Between 1, the share of a fault with itself, and 0.83, the most that any two of the zoo share

@@ -83,8 +83,8 @@ def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: P
 
 
 def _write_smoke(golden: Path | None, folder: Path) -> None:
-    from raycert.oracle.zoo.cover import chosen
     from raycert.oracle.zoo.inhabitants import FAULTS
+    from raycert.oracle.zoo.matrix import chosen
 
     for precision in PRECISIONS:
         with counting(f"trying in {precision}", len(FAULTS)) as advance:

@@ -126,11 +126,7 @@ def _faces(leaf: Leaf, grid: Grid) -> Iterator[tuple[int, int, int]]:
         yield 0, vw, yw - ww
     if isinstance(leaf, InfiniteCylinder | Cylinder):
         r = grid.scalar(leaf.radius)
-        yield (
-            ww * (v @ v) - vw * vw,
-            2 * (ww * (v @ y) - vw * yw),
-            ww * (y @ y - r * r) - yw * yw,
-        )
+        yield (ww * (v @ v) - vw * vw, 2 * (ww * (v @ y) - vw * yw), ww * (y @ y - r * r) - yw * yw)
 
 
 def _inside(leaf: Leaf, grid: Grid, t: Surd) -> bool:

@@ -1,15 +1,12 @@
 """Planted wrong tracers, and sound ones that differ: whether the corpus tells them apart.
 
-    tracer       the base tracer, a frozen dataclass of steps; every inhabitant replaces some
-    fault        what is said of each: what it does, where that is from, who must notice
+    tracer       the base tracer, a frozen dataclass of steps; and what is said of a fault of it
     walls        faults in Problem 1: the wall, the sphere, the discriminant
     planes       faults in Problems 2 and 3: planes, caps, rims; strict comparisons
     limits       faults of reach: starts, self-hits, scales, units, precision
-    trees        faults in the algebra of lists
-    replies      faults of the reply's form, and of what is remembered
+    lists        faults in the algebra of lists, of the reply's form, and of what is remembered
     inhabitants  all of them, the sound tracers, and the faults that need a process of their own
-    matrix       which family refuses which fault, and why
-    cover        the smoke rows: few rows that refuse what the corpus refuses
+    matrix       which family refuses which fault, and why; the smoke rows, which refuse the same
     textbook     the derivation's formulas as printed, a subject to look at
 
 Nothing here is shared with `reference`, and nothing here is ever a truth.

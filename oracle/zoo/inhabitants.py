@@ -5,17 +5,19 @@ A sound tracer is right in another way than the base, and stands here with what 
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import inf
 from typing import Any
 
+from raycert.cases.levels import Level
 from raycert.cases.model import Ray, Solid
 from raycert.cases.vectors import cross, dot, minus, times
-from raycert.oracle.zoo import limits, planes, replies, trees, walls
-from raycert.oracle.zoo.fault import Fault, ProcessFault, Sound
+from raycert.oracle.zoo import limits, lists, planes, walls
 from raycert.oracle.zoo.tracer import (
     BASE,
     PLAIN,
+    Fault,
+    Intersect,
     Pairs,
     Sight,
     Tracer,
@@ -28,13 +30,33 @@ from raycert.oracle.zoo.tracer import (
     unscaled,
 )
 
-FAULTS: tuple[Fault, ...] = (
-    *walls.FAULTS,
-    *planes.FAULTS,
-    *limits.FAULTS,
-    *trees.FAULTS,
-    *replies.FAULTS,
-)
+
+@dataclass(frozen=True)
+class Sound:
+    """A tracer that is right in another way, and what it deserves.
+
+    `deserves` is the highest level, where `but` names no other for the type of solid.
+    """
+
+    name: str
+    does: str
+    tracer: Intersect
+    deserves: Level
+    convention: str = "closed"
+    precision: str = "binary64"
+    but: tuple[tuple[str, Level], ...] = ()
+
+
+@dataclass(frozen=True)
+class ProcessFault:
+    """A fault that needs a process of its own; `test` is the one that sees it."""
+
+    name: str
+    does: str
+    test: str
+
+
+FAULTS = (*walls.FAULTS, *planes.FAULTS, *limits.FAULTS, *lists.FAULTS)
 """The planted faults, by the part of a tracer that they are in."""
 
 BY_NAME: dict[str, Fault] = {fault.name: fault for fault in FAULTS}

@@ -10,14 +10,15 @@ from zlib import crc32
 
 from raycert.cases.formats import BINARY32
 from raycert.cases.model import FIELDS, Leaf, Ray, Solid
-from raycert.oracle.zoo.fault import Fault, fault
 from raycert.oracle.zoo.tracer import (
     NAN,
+    Fault,
     Pairs,
     Read,
     Tell,
     ahead,
     each_leaf,
+    fault,
     single,
     unscaled,
 )

@@ -2,12 +2,18 @@
 
 In process, and by the rows' own `accept` lists, as any reader would: no error is measured. Only an
 answer that differs from the base's can be refused, for the base is granted every row.
+
+The smoke rows are few golden rows that still refuse all that the corpus refuses. For every fault
+and type of solid, one row that refuses the fault on the lowest level that any row of that type
+does; and a row of every family. Chosen greedily, the row that serves most first; equals in the
+order of the corpus, so that the choice is the same everywhere. The rows of the range tier, part of
+no level, come last, so that a fault at the n-th question strikes one that counts.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -16,10 +22,11 @@ from raycert.cases.accept import Numbers, Pairs
 from raycert.cases.corpus import Corpus
 from raycert.cases.formats import BINARY64, Format
 from raycert.cases.levels import Level
+from raycert.cases.model import type_of
 from raycert.cases.row import GoldenRow
 from raycert.oracle.judge.levels import Judge
-from raycert.oracle.zoo.fault import Fault, Intersect, Kind
-from raycert.oracle.zoo.tracer import BASE
+from raycert.oracle.zoo.inhabitants import FAULTS
+from raycert.oracle.zoo.tracer import BASE, Fault, Intersect, Kind
 
 LEVELS = ("sound", "stable", "closed", "faithful")
 """What may refuse a row, in this order; `faithful` by the number of pairs only."""
@@ -209,14 +216,61 @@ def form(corpus: Corpus, lines: Sequence[MatrixLine]) -> dict[str, Any]:
 
 def _fault_form(line: MatrixLine) -> dict[str, Any]:
     fault, first = line.fault, line.first
-    return {
-        "name": fault.name,
-        "does": fault.does,
-        "origin": fault.origin,
-        "home": fault.home,
+    words = {name: getattr(fault, name) for name in ("name", "does", "origin", "home")}
+    return words | {
         "kind": line.kind,
         "granted": line.granted,
         "trouble": line.trouble,
         "refused": {family: dict(levels) for family, levels in line.families.items()},
         "first": first and {"id": first.row.id, "level": first.level, "reason": first.reason},
     }
+
+
+MOST = 200
+"""More rows than these are no smoke test; tests/zoo/test_zoo_cover.py counts them."""
+
+Need = tuple[str, str]
+"""What a row can serve: (fault, type of solid), or ("", family)."""
+
+
+def chosen(corpus: Corpus, advance: Callable[[], object] = lambda: None) -> list[str]:
+    """Return the ids to put into the file of a corpus."""
+    trials = Trials(corpus.rows, corpus.format)
+    serves: dict[str, set[Need]] = {row.id: {("", row.family)} for row in corpus.rows}
+    for fault in FAULTS:
+        for id, need in served(fault, line(trials, fault).refusals):
+            serves[id].add(need)
+        advance()
+    picked = set(greedy(serves))
+    rows = sorted(corpus.rows, key=lambda row: row.tier == "range")
+    return [row.id for row in rows if row.id in picked]
+
+
+def served(fault: Fault, refusals: Sequence[Refusal]) -> list[tuple[str, Need]]:
+    """Return the rows that refuse a fault on the lowest level of their type, with what they serve.
+
+    Rows of the range tier are part of no level: they count only where there is no other.
+    """
+    ranked = [
+        (type_of(r.row.solid), (r.row.tier == "range", LEVELS.index(r.level)), r.row.id)
+        for r in refusals
+    ]
+    least: dict[str, tuple[bool, int]] = {}
+    for name, rank, _ in ranked:
+        least[name] = min(least.get(name, rank), rank)
+    return [(id, (fault.name, name)) for name, rank, id in ranked if rank == least[name]]
+
+
+def greedy(serves: Mapping[str, set[Need]]) -> list[str]:
+    """Return keys whose values together are all there is: the largest remainder first.
+
+    >>> greedy({"a": {("", "1")}, "b": {("", "1"), ("", "2")}})
+    ['b']
+    """
+    left = {need for needs in serves.values() for need in needs}
+    picked = []
+    while left:
+        best = max(serves, key=lambda id: len(serves[id] & left))
+        picked.append(best)
+        left -= serves[best]
+    return picked

@@ -10,11 +10,11 @@ from math import copysign, inf
 
 from raycert.cases.model import Vector
 from raycert.cases.vectors import cross, dot, minus
-from raycert.oracle.zoo.fault import Fault, fault
 from raycert.oracle.zoo.tracer import (
     LINE,
     NAN,
     PLAIN,
+    Fault,
     Pairs,
     Sight,
     Step,
@@ -23,6 +23,7 @@ from raycert.oracle.zoo.tracer import (
     can,
     chord,
     common,
+    fault,
     norm,
     plane,
     share,

@@ -1,4 +1,6 @@
-"""The base tracer of the zoo: plain doubles, every step replaceable. Sound, stable and closed.
+"""The base tracer of the zoo, plain doubles, every step replaceable; and what a fault of it is.
+
+The base is sound, stable and closed.
 
 Symbols: the ray is u + t v, the axis runs from p to q, w = q - p (for a half-space, its normal);
 y = u - p (u - center, u - point) and z = u - q. Each leaf gives intervals of the whole line of t,
@@ -11,13 +13,14 @@ multiply and compare alike, and only `root` and `shift` look which one they have
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import reduce
 from math import frexp, inf, isqrt, ldexp, nan, sqrt
-from typing import Any, NamedTuple, cast
+from typing import Any, Literal, NamedTuple, cast
 
 from raycert.cases.formats import BINARY32
+from raycert.cases.levels import Level
 from raycert.cases.model import (
     Cylinder,
     Difference,
@@ -32,6 +35,9 @@ from raycert.cases.model import (
     Union,
     Vector,
     map_leaves,
+    parts,
+    points,
+    radius,
 )
 from raycert.cases.vectors import cross, dot, minus, times
 
@@ -266,43 +272,42 @@ class Tracer:
 
     def node(self, solid: Solid, ray: Ray) -> Pairs:
         """Return the list of a solid or of a part of it."""
+        lists = [self.node(part, ray) for part in parts(solid)]
         match solid:
-            case Union(of):
-                return self.unite([self.node(part, ray) for part in of])
-            case Intersection(of):
-                return self.share([self.node(part, ray) for part in of])
-            case Difference(of):
-                return self.subtract([self.node(part, ray) for part in of])
+            case Union():
+                return self.unite(lists)
+            case Intersection():
+                return self.share(lists)
+            case Difference():
+                return self.subtract(lists)
         s, line = self.leaf(solid, ray)
         return self.ahead([(shift(a, s.e), shift(b, s.e)) for a, b in line])
 
-    def leaf(self, solid: Solid, ray: Ray) -> tuple[Sight, Pairs]:
+    def leaf(self, leaf: Leaf, ray: Ray) -> tuple[Sight, Pairs]:
         """Return a leaf as the ray meets it, and its intervals of the scaled line."""
-        match solid:
-            case HalfSpace(point, normal):
-                s = self.sight(ray, point, point, normal, 0.0)
+        s = self.sight(ray, leaf)
+        match leaf:
+            case HalfSpace():
                 return s, self.below(self, s)
-            case Sphere(center, radius):
-                s = self.sight(ray, center, center, (0.0, 0.0, 0.0), radius)
+            case Sphere():
                 return s, self.ball(self, s)
-            case InfiniteCylinder(p, q, radius):
-                s = self.sight(ray, p, q, None, radius)
+            case InfiniteCylinder():
                 return s, self.wall(self, s)
-            case Slab(p, q):
-                s = self.sight(ray, p, q, None, 0.0)
+            case Slab():
                 return s, self.share(self.caps(self, s))
-            case Cylinder(p, q, radius):
-                s = self.sight(ray, p, q, None, radius)
+            case Cylinder():
                 return s, self.can(self, s)
-        raise TypeError(solid)
 
-    def sight(self, ray: Ray, p: Vector, q: Vector, w: Vector | None, radius: float) -> Sight:
-        """Return the leaf at p and q, with axis or normal w (q - p if None), scaled."""
-        e = self.scale(*ray.origin, *p, *q, radius)
+    def sight(self, ray: Ray, leaf: Leaf) -> Sight:
+        """Return the leaf scaled: p and q are one where it has one point, w is q - p or its own."""
+        (p, *others), length = points(leaf), radius(leaf)
+        q = others[0] if others else p
+        e = self.scale(*ray.origin, *p, *q, length)
         u = shifted(self.vector(ray.origin), -e)
         p, q = shifted(self.vector(p), -e), shifted(self.vector(q), -e)
-        y, z, r = minus(u, p), minus(u, q), shift(self.number(radius), -e)
-        v, w = self.vector(ray.direction), minus(q, p) if w is None else self.vector(w)
+        y, z, r = minus(u, p), minus(u, q), shift(self.number(length), -e)
+        v = self.vector(ray.direction)
+        w = self.vector(leaf.normal) if isinstance(leaf, HalfSpace) else minus(q, p)
         small, ve, we = self.scale(*y, *z, r), self.scale(*v), self.scale(*w)
         u, y, z, r = shifted(u, -small), shifted(y, -small), shifted(z, -small), shift(r, -small)
         return Sight(u, y, z, shifted(v, -ve), shifted(w, -we), r, e + small - ve)
@@ -375,3 +380,42 @@ def quadratic(solve: Callable[[float, float, float], Pairs]) -> Chord:
 def each_leaf(change: Callable[[Any], Leaf]) -> Read:
     """Return the step that reads every leaf of a solid otherwise."""
     return lambda solid, ray: (map_leaves(change, solid), ray)
+
+
+Intersect = Callable[[Solid, Ray], Pairs]
+Kind = Literal[
+    "crash", "malformed", "missed", "phantom", "wrong end", "count", "touch dropped", "unrepeated"
+]
+"""How an answer is refused; see `matrix.kind` for what each means."""
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A planted fault: `does` completes "a tracer that ...".
+
+    `home` is the family made for it, `kind` the way most of its answers there are refused.
+    `granted` is the highest level that its answers are still granted, `make` gives a new tracer;
+    a `stateful` one answers by what it was asked before.
+    """
+
+    name: str
+    does: str
+    origin: str
+    home: str
+    kind: Kind
+    make: Callable[[], Intersect]
+    granted: Level | None = None
+    stateful: bool = False
+
+
+def fault(
+    name: str,
+    does: str,
+    origin: str,
+    home: str,
+    kind: Kind,
+    granted: Level | None = None,
+    **steps: Any,
+) -> Fault:
+    tracer = replace(BASE, **steps)
+    return Fault(name, does, origin, home, kind, lambda: tracer, granted)

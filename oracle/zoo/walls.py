@@ -10,12 +10,12 @@ from typing import Any
 from raycert.cases.formats import BINARY32
 from raycert.cases.model import Cylinder, InfiniteCylinder, Leaf, Slab, Vector
 from raycert.cases.vectors import cross, dot, minus, times
-from raycert.oracle.zoo.fault import Fault, fault
 from raycert.oracle.zoo.tracer import (
     LINE,
     NAN,
     PLAIN,
     Chord,
+    Fault,
     Pairs,
     Sight,
     Step,
@@ -25,6 +25,7 @@ from raycert.oracle.zoo.tracer import (
     coefficients,
     crossed,
     each_leaf,
+    fault,
     norm,
     projected,
     quadratic,

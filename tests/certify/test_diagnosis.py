@@ -20,10 +20,9 @@ from raycert.oracle.certify.diagnosis import LEAST, SHARE, close, diagnose
 from raycert.oracle.certify.grading import Grade
 from raycert.oracle.judge.answer import Listed
 from raycert.oracle.judge.levels import Judge
-from raycert.oracle.zoo.fault import Fault, Intersect
 from raycert.oracle.zoo.inhabitants import FAULTS, SOUND
 from raycert.oracle.zoo.matrix import Outcome, Trials
-from raycert.oracle.zoo.tracer import Tracer, crossed, projected, unscaled
+from raycert.oracle.zoo.tracer import Fault, Intersect, Tracer, crossed, projected, unscaled
 from shared.corpus import golden
 
 SILENT = {

@@ -31,9 +31,8 @@ from raycert.oracle.hunt.moves import cost
 from raycert.oracle.hunt.pursuit import work
 from raycert.oracle.hunt.search import Budget, Finding, hunt
 from raycert.oracle.hunt.unit import Job
-from raycert.oracle.zoo.fault import Fault
 from raycert.oracle.zoo.inhabitants import BY_NAME, FAULTS
-from raycert.oracle.zoo.tracer import BASE
+from raycert.oracle.zoo.tracer import BASE, Fault
 from shared.hunted_targets import spec
 
 SMALL = 12

@@ -27,9 +27,9 @@ from raycert.oracle.certify.verdict import Touches, by_solid
 from raycert.oracle.commands.export import export
 from raycert.oracle.commands.harness import READERS, harness
 from raycert.oracle.judge.levels import Judge
-from raycert.oracle.zoo.fault import Intersect
 from raycert.oracle.zoo.inhabitants import FAULTS, SOUND
 from raycert.oracle.zoo.matrix import Outcome
+from raycert.oracle.zoo.tracer import Intersect
 from shared.corpus import golden
 
 Respond = Callable[[GoldenRow], Numbers | None]

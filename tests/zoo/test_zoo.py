@@ -17,10 +17,9 @@ from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.verdict import Touches, by_solid
 from raycert.oracle.commands.zoo import zoo
 from raycert.oracle.zoo import inhabitants
-from raycert.oracle.zoo.fault import Fault, ProcessFault, Sound, fault
-from raycert.oracle.zoo.inhabitants import BY_NAME, FAULTS, PROCESS, SOUND
+from raycert.oracle.zoo.inhabitants import BY_NAME, FAULTS, PROCESS, SOUND, ProcessFault, Sound
 from raycert.oracle.zoo.matrix import Outcome, Trials, kind, line
-from raycert.oracle.zoo.tracer import BASE
+from raycert.oracle.zoo.tracer import BASE, Fault, fault
 from shared.corpus import golden
 from shared.places import TESTS
 

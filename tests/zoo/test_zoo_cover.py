@@ -9,11 +9,10 @@ import pytest
 from raycert.cases.model import type_of
 from raycert.cases.protocol import Hello
 from raycert.oracle.certify.selection import Selection, select
-from raycert.oracle.zoo.cover import MOST, greedy, served
-from raycert.oracle.zoo.fault import Fault
 from raycert.oracle.zoo.inhabitants import FAULTS
-from raycert.oracle.zoo.matrix import Trials, line
+from raycert.oracle.zoo.matrix import MOST, Trials, greedy, line, served
 from raycert.oracle.zoo.smoke import smoke
+from raycert.oracle.zoo.tracer import Fault
 from shared.corpus import golden
 
 PRECISIONS = ("binary64", "binary32")

@@ -1,4 +1,4 @@
-"""The ids of the smoke rows: few golden rows that refuse every fault of the zoo (see cover.py)."""
+"""The ids of the smoke rows: few golden rows that refuse every fault of the zoo (see matrix.py)."""
 
 from __future__ import annotations
 
