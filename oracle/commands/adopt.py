@@ -110,11 +110,9 @@ def _found(file: Path, options: dict[str, Any]) -> Candidate:
         raise BadInput(f"--id: {file} is one case, and no golden file")
     else:
         found = Candidate(*from_json(file.read_bytes(), fmt, str(file)), fmt, options["why"])
-    found = replace(found, tier=options["tier"])
-    if options["source"] is not None:
-        found = replace(found, source=options["source"])
-    flags = dict.fromkeys((*found.flags, *options["flags"]))
-    return replace(found, flags=tuple(flags))
+    source = found.source if options["source"] is None else options["source"]
+    flags = tuple(dict.fromkeys((*found.flags, *options["flags"])))
+    return replace(found, tier=options["tier"], source=source, flags=flags)
 
 
 def _row(file: Path, fmt: Format, id: str | None, why: str) -> Candidate:
@@ -141,11 +139,9 @@ def _say(checked: Hearing) -> None:
     from raycert.oracle.witness.testimony import WITNESSES
 
     click.echo(f"exactly {checked.answer}")
-    said = {name: verdict for name, verdict, _ in checked.testimonies}
-    for name in WITNESSES:
-        if name not in said:
-            click.echo(f"{name}: not installed, not asked")
-            continue
-        verdict = said[name]
+    said = dict.fromkeys(WITNESSES, "not installed, not asked")
+    for name, verdict, _ in checked.testimonies:
         why = f": {verdict.why}" if verdict.outcome == "undecided" and verdict.why else ""
-        click.echo(f"{name}: {verdict.outcome}{why}")
+        said[name] = f"{verdict.outcome}{why}"
+    for name, words in said.items():
+        click.echo(f"{name}: {words}")

@@ -23,6 +23,7 @@ from raycert.oracle.commands.options import (
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from raycert.cases.model import Ray, Solid
     from raycert.oracle.witness.crosscheck import Hearing, Query, Score, Summary
 
 NAMES = ("definition", "enclosure", "symbols", "meshes")
@@ -64,9 +65,11 @@ def crosscheck(names: tuple[str, ...], **options: Any) -> None:
         raise click.UsageError("--family, --fresh and --json exclude one another")
     if options["golden"] and (options["fresh"] or options["lines"]):
         raise click.UsageError("--golden goes with golden rows, not with --fresh or --json")
+    from raycert.oracle.witness.crosscheck import Query
+
     chosen = tuple(name for name in NAMES if name in names) or NAMES
     _require(chosen)
-    questions = _questions(options)
+    questions = [Query(*question) for question in _questions(options)]
     if not questions:
         stop("nothing to check: the golden files hold no rows")
     workers = min(options["workers"], -(-len(questions) // 16))
@@ -88,51 +91,46 @@ def _require(names: Sequence[str]) -> None:
             stop(f"{missing}; or leave it out: raycert crosscheck {others}")
 
 
-def _questions(options: dict[str, Any]) -> list[Query]:
-    from raycert.oracle.witness.crosscheck import Query
-
+def _questions(options: dict[str, Any]) -> Iterable[tuple[str, Solid, Ray]]:
     if options["lines"]:
         return [_read(line, f"json-{i}") for i, line in enumerate(options["lines"], 1)]
     if options["fresh"]:
         from raycert.cases.draw import fresh
 
         cases = fresh(options["fresh"], options["seed"])
-        return [Query(f"fresh/{case.slug}", case.solid, case.ray) for case in cases]
+        return [(f"fresh/{case.slug}", case.solid, case.ray) for case in cases]
     return _rows(options["golden"], options["families"])
 
 
-def _read(line: str, id: str) -> Query:
+def _read(line: str, id: str) -> tuple[str, Solid, Ray]:
     """Return the case on a line of the protocol, as it is sent to an implementation."""
     from raycert.cases.forms import read_ray, read_solid
     from raycert.cases.model import Refused
     from raycert.cases.protocol import BadLine, decode
-    from raycert.oracle.witness.crosscheck import Query
 
     try:
         form = decode(line.encode())
         solid, ray = read_solid(form.get("solid")), read_ray(form.get("ray"))
     except (BadLine, Refused) as error:
         raise click.BadParameter(str(error), param_hint="--json") from None
-    return Query(str(form.get("id", id)), solid, ray)
+    return str(form.get("id", id)), solid, ray
 
 
-def _rows(folder: Path | None, families: tuple[str, ...]) -> list[Query]:
-    from raycert.oracle.witness.crosscheck import Query
-
+def _rows(folder: Path | None, families: tuple[str, ...]) -> list[tuple[str, Solid, Ray]]:
     corpora = [read(precision, folder) for precision in PRECISIONS]
     rows = [(f"{corpus.precision}:{row.id}", row) for corpus in corpora for row in corpus.rows]
     known = {row.family for _, row in rows}
     if absent := [family for family in families if family not in known]:
         raise click.UsageError(f"not in the corpus: {', '.join(absent)}; see: raycert list")
     wanted = families or known
-    return [Query(id, row.solid, row.ray) for id, row in rows if row.family in wanted]
+    return [(id, row.solid, row.ray) for id, row in rows if row.family in wanted]
 
 
 def _crosscheck(questions: list[Query], names: Sequence[str], workers: int) -> int:
     from raycert.oracle.witness.crosscheck import Summary
     from raycert.oracle.witness.crosscheck import crosscheck as run
 
-    summary = Summary.over(names)
+    summary = Summary()
     with counting("cross-checking", len(questions)) as advance:
         for checked in run(questions, names, workers):
             summary.add(checked)
@@ -141,7 +139,7 @@ def _crosscheck(questions: list[Query], names: Sequence[str], workers: int) -> i
         _print_difference(checked, names)
     if len(summary.differing) > SHOWN:
         click.echo(f"and {len(summary.differing) - SHOWN} more cases\n")
-    _print_scores(summary)
+    _print_scores(names, summary)
     return 1 if summary.differing else 0
 
 
@@ -176,24 +174,24 @@ def _table(title: str | None, headings: Sequence[str], rows: Iterable[Sequence[s
     Console(highlight=False).print(table)
 
 
-def _print_scores(summary: Summary) -> None:
+def _print_scores(names: Sequence[str], summary: Summary) -> None:
     headings = ("witness", "agreed", "undecided", "disagreed", "ms a case", "slowest, ms")
-    _table(None, headings, [_cells(score) for score in summary.scores.values()])
-    for score in summary.scores.values():
+    _table(None, headings, [_cells(name, summary.scores[name]) for name in names])
+    for name in names:
         reasons: Counter[str] = Counter()  # how often each was given, whatever the intervals in it
-        for why, count in score.undecided.items():
+        for why, count in summary.scores[name].undecided.items():
             reasons[re.sub(r"\[[^]]*\]", "[...]", why)] += count
         for why, count in reasons.most_common(5):
-            click.echo(f"{score.witness} undecided on {count}: {why}")
+            click.echo(f"{name} undecided on {count}: {why}")
 
 
-def _cells(score: Score) -> tuple[str, ...]:
-    outcomes, count = score.outcomes, score.count
+def _cells(name: str, score: Score) -> tuple[str, ...]:
+    outcomes, count = score.outcomes, score.outcomes.total()
     undecided = outcomes["undecided"]
     share = f" ({undecided / count:.1%})" if undecided else ""
     times = f"{score.seconds / count * 1e3:.2f}", f"{score.slowest * 1e3:.0f}"
     agreed, disagreed = str(outcomes["agreed"]), str(outcomes["disagreed"])
-    return (score.witness, agreed, f"{undecided}{share}", disagreed, *times)
+    return (name, agreed, f"{undecided}{share}", disagreed, *times)
 
 
 def _print_curve() -> None:

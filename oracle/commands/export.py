@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -21,10 +21,9 @@ from raycert.oracle.commands.options import (
 )
 
 if TYPE_CHECKING:
-    from raycert.cases.accept import Accept
     from raycert.cases.corpus import Corpus
     from raycert.cases.formats import Format
-    from raycert.cases.model import Ray, Solid
+    from raycert.cases.model import Solid
     from raycert.cases.row import End, GoldenRow
 
 HEADER = """id tier type solid ray expected down up decisive
@@ -100,23 +99,15 @@ def _help() -> str:
 )
 @precision_option
 @golden_option
-def export(
-    out: str,
-    families: tuple[str, ...],
-    tiers: tuple[str, ...],
-    solids: str | None,
-    precision: str,
-    golden: Path | None,
-) -> None:
+def export(out: str, solids: str | None, precision: str, golden: Path | None, **rows: Any) -> None:
     """Write golden rows as flat TSV with bit patterns: no JSON, no decimal to parse."""
     corpus = read(precision, golden)
-    chosen = select(corpus, families=families, tiers=tiers)
+    chosen = select(corpus, **rows)
     chosen = _made_of(chosen, solids) if solids else chosen
     if not chosen:
         raise BadInput("no row is such; see: raycert list --families")
-    data = "".join(f"{line}\n" for line in lines(chosen, corpus))
     try:
-        write_text(out, data)
+        write_text(out, "".join(f"{line}\n" for line in lines(chosen, corpus)))
     except OSError as error:
         raise BadInput(f"--out {out}: {error.strerror}") from None
     if out != "-":
@@ -140,23 +131,25 @@ def lines(rows: list[GoldenRow], corpus: Corpus) -> Iterator[str]:
     grammar = GRAMMAR.format(digits=fmt.digits, name=fmt.name, inf=fmt.bits(float("inf")))
     for line in grammar.splitlines():
         yield f"# {line}".rstrip()
-    yield "#"
-    yield "# " + "\t".join(COLUMNS)
+    yield from ("#", "# " + "\t".join(COLUMNS))
     for row in rows:
         yield "\t".join(cells(row, fmt))
 
 
 def cells(row: GoldenRow, fmt: Format) -> Iterator[str]:
     kind, _, solid = _solid(row.solid, fmt).partition(" ")
-    yield from (row.id, row.tier, kind, solid, _ray(row.ray, fmt))
+    yield from (row.id, row.tier, kind, solid, _numbers((*row.ray.origin, *row.ray.direction), fmt))
     yield _pairs(row.expected, fmt)
     enclosing = merged_ends(row)
-    yield _pairs(tuple((enter.down, leave.down) for enter, leave in enclosing), fmt)
-    yield _pairs(tuple((enter.up, leave.up) for enter, leave in enclosing), fmt)
+    yield _pairs([(enter.down, leave.down) for enter, leave in enclosing], fmt)
+    yield _pairs([(enter.up, leave.up) for enter, leave in enclosing], fmt)
     yield _words(row.decisive)
     for level in ("sound", "stable"):
-        yield from _accept(row.accept[level], fmt)
-    yield _words(tuple(span.touch or "none" for span in row.intervals))
+        accept = row.accept[level]
+        yield _pairs(accept.inner, fmt)
+        yield _pairs(accept.outer, fmt)
+        yield _words(accept.most)
+    yield _words([span.touch or "none" for span in row.intervals])
 
 
 def merged_ends(row: GoldenRow) -> list[tuple[End, End]]:
@@ -179,28 +172,18 @@ def _solid(solid: Solid, fmt: Format) -> str:
     from raycert.cases.numbers import leaf_numbers
 
     if isinstance(solid, Tree):
-        parts = (_solid(part, fmt) for part in solid.of)
-        return " ".join((type_of(solid), str(len(solid.of)), *parts))
+        return f"{type_of(solid)} {_words([_solid(part, fmt) for part in solid.of])}"
     return f"{type_of(solid)} {_numbers(leaf_numbers(solid), fmt)}"
 
 
-def _ray(ray: Ray, fmt: Format) -> str:
-    return _numbers((*ray.origin, *ray.direction), fmt)
+def _numbers(values: Iterable[float], fmt: Format) -> str:
+    return " ".join(map(fmt.bits, values))
 
 
-def _numbers(values: Sequence[float], fmt: Format) -> str:
-    return " ".join(fmt.bits(value) for value in values)
+def _pairs(pairs: Sequence[tuple[float, float]], fmt: Format) -> str:
+    return _words([_numbers(pair, fmt) for pair in pairs])
 
 
-def _pairs(pairs: tuple[tuple[float, float], ...], fmt: Format) -> str:
-    return " ".join((str(len(pairs)), *(_numbers(pair, fmt) for pair in pairs)))
-
-
-def _words(words: tuple[str, ...]) -> str:
-    return " ".join((str(len(words)), *words))
-
-
-def _accept(accept: Accept, fmt: Format) -> Iterator[str]:
-    yield _pairs(accept.inner, fmt)
-    yield _pairs(accept.outer, fmt)
-    yield _words(tuple(map(str, accept.most)))
+def _words(words: Sequence[object]) -> str:
+    """Return their number and the words."""
+    return " ".join(map(str, (len(words), *words)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -41,6 +41,7 @@ Examples:
 
 Exit status: 0 every fault is refused by its home, 1 one is not, 2 bad usage.
 """
+SMOKE = "Choose the rows of certify --smoke, and write their ids there."
 OTHERS = 78
 """What the columns before the last take, at most."""
 WIDE = 100
@@ -51,12 +52,7 @@ WIDE = 100
 @repeatable("--fault", "names", "Only this", metavar="NAME")
 @golden_option
 @click.option("--json", "out", type=FILE, metavar="FILE")
-@click.option(
-    "--write-smoke",
-    "folder",
-    type=KNOWN_FOLDER,
-    help="Choose the rows of certify --smoke, and write their ids there.",
-)
+@click.option("--write-smoke", "folder", type=KNOWN_FOLDER, help=SMOKE)
 def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: Path | None) -> None:
     """Try planted wrong tracers on the golden rows."""
     import json
@@ -64,7 +60,7 @@ def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: P
     from rich.console import Console
 
     from raycert.oracle.zoo.inhabitants import BY_NAME
-    from raycert.oracle.zoo.matrix import form
+    from raycert.oracle.zoo.matrix import Trials, form, line
 
     if unknown := [name for name in names if name not in BY_NAME]:
         raise click.BadParameter(f"no such fault: {', '.join(unknown)}", param_hint="--fault")
@@ -72,7 +68,11 @@ def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: P
         _write_smoke(golden, folder)
         return
     corpus = read("binary64", golden)
-    lines = _lines(corpus, names or tuple(BY_NAME))
+    trials, lines = Trials(corpus.rows, corpus.format), []
+    with counting("trying", len(names or BY_NAME)) as advance:
+        for name in names or BY_NAME:
+            lines.append(line(trials, BY_NAME[name]))
+            advance()
     if out:
         write_text(out, json.dumps(form(corpus, lines), indent=1) + "\n")
     console = Console()
@@ -91,18 +91,6 @@ def _write_smoke(golden: Path | None, folder: Path) -> None:
             ids = chosen(read(precision, golden), advance)
         write_text(folder / f"{precision}.txt", "".join(f"{id}\n" for id in ids))
         click.echo(f"{precision}: {len(ids)} rows")
-
-
-def _lines(corpus: Corpus, names: Sequence[str]) -> list[MatrixLine]:
-    from raycert.oracle.zoo.inhabitants import BY_NAME
-    from raycert.oracle.zoo.matrix import Trials, line
-
-    trials, lines = Trials(corpus.rows, corpus.format), []
-    with counting("trying", len(names)) as advance:
-        for name in names:
-            lines.append(line(trials, BY_NAME[name]))
-            advance()
-    return lines
 
 
 def _table(lines: Sequence[MatrixLine], width: int) -> Table:
@@ -151,6 +139,6 @@ def _summary(corpus: Corpus, lines: Sequence[MatrixLine], console: Console) -> i
         return 0
     console.print(f"{len(trouble)} NOT AS THEY SHOULD BE", style="bold red")
     for line in trouble:
-        how: dict[str, Any] = {"style": "red", "highlight": False}
-        console.print(f"  {line.fault.name}, that {line.fault.does}: {line.trouble}", **how)
+        words = f"  {line.fault.name}, that {line.fault.does}: {line.trouble}"
+        console.print(words, style="red", highlight=False)
     return 1

@@ -171,28 +171,21 @@ class ChordEnd:
     faces: tuple[int, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Crossings:
-    """What a cast found, in order along it: parameters, faces, and whether each goes in."""
-
-    tau: Floats
-    faces: tuple[int, ...]
-    inward: tuple[bool, ...]
+Hit = tuple[float, int, bool]
+"""The parameter tau of a cast, the face, and whether the cast goes in there."""
 
 
-def hits(body: Body, line: CastLine) -> Crossings:
-    """Return all hits of a cast, as trimesh finds them."""
+def hits(body: Body, line: CastLine) -> list[Hit]:
+    """Return all hits of a cast, as trimesh finds them, in order along it."""
     start, direction = np.array([line.start]), np.array([line.direction])
     with np.errstate(divide="ignore", invalid="ignore"):  # triangles whose area rounds to 0
         points, _, faces = body.caster.intersects_location(start, direction, multiple_hits=True)
     if not len(faces):
-        return Crossings(np.empty(0), (), ())
+        return []
     d = direction[0]
-    tau = (points - start) @ d / (d @ d)
-    order = np.argsort(tau)
-    found = faces[order]
-    inward = body.normals[found] @ d < 0
-    return Crossings(tau[order], tuple(found.tolist()), tuple(inward.tolist()))
+    tau, inward = (points - start) @ d / (d @ d), body.normals[faces] @ d < 0
+    found = zip(tau.tolist(), faces.tolist(), inward.tolist(), strict=True)
+    return sorted(found, key=lambda hit: hit[0])
 
 
 def chord(body: Body, line: CastLine) -> tuple[ChordEnd, ChordEnd] | None:
@@ -202,16 +195,17 @@ def chord(body: Body, line: CastLine) -> tuple[ChordEnd, ChordEnd] | None:
     where the hits are not those of one chord.
     """
     found = hits(body, line)
-    if not found.faces:
+    if not found:
         if may_lose(body, line):
             raise Unsure("a face is too near parallel to tell a miss")
         return None
-    entering = sum(found.inward)
-    if found.inward != (True,) * entering + (False,) * (len(found.inward) - entering):
+    turns = [inward for _, _, inward in found]
+    entering = sum(turns)
+    if turns != sorted(turns, reverse=True):
         raise Unsure("the hits do not enter and then leave")
-    if not 0 < entering < len(found.inward):
+    if not 0 < entering < len(turns):
         raise Unsure("a hit of the pair is lost")
-    return _end(found, 0, entering), _end(found, entering, len(found.faces))
+    return _end(found[:entering]), _end(found[entering:])
 
 
 def may_lose(body: Body, line: CastLine) -> bool:
@@ -233,8 +227,8 @@ def may_lose(body: Body, line: CastLine) -> bool:
     return bool(np.any(near | (first * last <= 0)))
 
 
-def _end(found: Crossings, first: int, last: int) -> ChordEnd:
-    """Return the end that hits first..last - 1 are: one place, several faces at an edge."""
-    if found.tau[last - 1] - found.tau[first] > MARGIN:
+def _end(found: list[Hit]) -> ChordEnd:
+    """Return the end that some hits are: one place, several faces at an edge."""
+    if found[-1][0] - found[0][0] > MARGIN:
         raise Unsure("the hits of one end lie apart")
-    return ChordEnd(float(found.tau[first]), found.faces[first:last])
+    return ChordEnd(found[0][0], tuple(face for _, face, _ in found))

@@ -5,7 +5,7 @@ Each case is answered by the oracle once and judged by every witness asked. No o
 
 from __future__ import annotations
 
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
@@ -85,40 +85,27 @@ def crosscheck(
 class Score:
     """How one witness fared: outcomes, seconds, the slowest case, and why it was undecided."""
 
-    witness: str
     outcomes: Counter[Outcome] = field(default_factory=Counter)
     seconds: float = 0.0
     slowest: float = 0.0
     undecided: Counter[str] = field(default_factory=Counter)
-
-    @property
-    def count(self) -> int:
-        return self.outcomes.total()
-
-    def add(self, testimony: Testimony, seconds: float) -> None:
-        """Count one testimony."""
-        self.outcomes[testimony.outcome] += 1
-        self.seconds += seconds
-        self.slowest = max(self.slowest, seconds)
-        if testimony.outcome == "undecided":
-            self.undecided[testimony.why] += 1
 
 
 @dataclass(slots=True)
 class Summary:
     """The score of each witness, and the cases on which one disagreed."""
 
-    scores: dict[str, Score]
+    scores: defaultdict[str, Score] = field(default_factory=lambda: defaultdict(Score))
     differing: list[Hearing] = field(default_factory=list)
-
-    @classmethod
-    def over(cls, names: Iterable[str]) -> Summary:
-        """Return an empty summary of these witnesses."""
-        return cls({name: Score(name) for name in names})
 
     def add(self, hearing: Hearing) -> None:
         """Count one case."""
         for name, testimony, seconds in hearing.testimonies:
-            self.scores[name].add(testimony, seconds)
+            score = self.scores[name]
+            score.outcomes[testimony.outcome] += 1
+            score.seconds += seconds
+            score.slowest = max(score.slowest, seconds)
+            if testimony.outcome == "undecided":
+                score.undecided[testimony.why] += 1
         if hearing.disagreed:
             self.differing.append(hearing)

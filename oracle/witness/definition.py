@@ -11,6 +11,7 @@ With y = u - p and w = q - p the distance is by projection: d^2 = |x-p|^2 - ((x-
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import groupby
 from math import isqrt
 
 from raycert.cases.model import (
@@ -49,7 +50,8 @@ def witness(solid: Solid, ray: Ray, answer: Intervals) -> Testimony:
 def solve(solid: Solid, ray: Ray) -> Intervals:
     """Return the interval list, read off the points and gaps that belong to the solid."""
     grid = Grid.of(solid, ray)
-    points = _distinct(t for _, leaf in leaves(solid) for t in _roots(leaf, grid))
+    roots = [t for _, leaf in leaves(solid) for t in _roots(leaf, grid)]
+    points = [t for t, _ in groupby(sorted([ZERO, *(t for t in roots if t > ZERO)]))]
     samples = list(_samples(points))
 
     def cells(leaf: Leaf) -> int:
@@ -58,15 +60,6 @@ def solve(solid: Solid, ray: Ray) -> Intervals:
     ends = [grid.surd(t.x, t.y, t.d, t.z) for t in points]
     found = runs(combine(solid, cells, len(points)), ends)
     return tuple((a, INFINITY if b is None else b) for a, b in found)
-
-
-def _distinct(roots: Iterator[Surd]) -> list[Surd]:
-    """Return 0 and the positive roots, in order, each once."""
-    points = [ZERO]
-    for t in sorted(t for t in roots if t > ZERO):
-        if t != points[-1]:
-            points.append(t)
-    return points
 
 
 def _samples(points: list[Surd]) -> Iterator[Surd]:

@@ -24,6 +24,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cmp_to_key
+from itertools import groupby
 from typing import Any
 
 from mpmath import iv, mp, nstr
@@ -275,8 +276,5 @@ def _is(end: Enclosed, x: Fraction) -> bool:
 
 def distinct(ends: Iterable[Enclosed]) -> list[Enclosed]:
     """Return the ends in order, one for each number. Raises `Blurred`."""
-    found: list[Enclosed] = []
-    for end in sorted(ends, key=cmp_to_key(compare)):
-        if not found or compare(found[-1], end):
-            found.append(end)
-    return found
+    order = cmp_to_key(compare)
+    return [next(group) for _, group in groupby(sorted(ends, key=order), key=order)]

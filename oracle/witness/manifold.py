@@ -31,18 +31,20 @@ from raycert.cases.model import (
     Slab,
     Solid,
     Sphere,
+    Tree,
     Union,
     Vector,
     leaves,
+    points,
 )
 from raycert.oracle.exact.intervals import Interval, Intervals
-from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, fraction
+from raycert.oracle.exact.surd import INFINITY, ZERO
 from raycert.oracle.witness.algebra import Vec
 from raycert.oracle.witness.bodies import (
     Body,
-    Crossings,
     Fineness,
     Floats,
+    Hit,
     Side,
     Unsure,
     ball_surface,
@@ -61,7 +63,7 @@ from raycert.oracle.witness.placement import (
     power,
     root,
 )
-from raycert.oracle.witness.sandwich import NONE, Sandwich, judge, select
+from raycert.oracle.witness.sandwich import NONE, Sandwich, judge, select, surd
 from raycert.oracle.witness.testimony import Outcome
 
 WIDE = 2.0**-16
@@ -79,6 +81,9 @@ SPREAD = 2.0**-24
 COARSE = (Fineness(n=48, level=2), Fineness(n=40, level=2, variant=1))
 """Two sets of bodies: a disagreement is one that both see. Finer ones settle no more of a random
 sample, and cost 2.5 times as much at n = 64, level 3."""
+
+
+BOOLEANS = {Union: OpType.Add, Intersection: OpType.Intersect, Difference: OpType.Subtract}
 
 
 class NotTried(ValueError):
@@ -107,10 +112,6 @@ class Viewport:
     @property
     def window(self) -> Intervals:
         return ((surd(self.low), surd(self.high)),)
-
-
-def surd(x: Fraction) -> Surd:
-    return fraction(x.numerator, x.denominator)
 
 
 def check(
@@ -147,7 +148,7 @@ def _viewport(solid: Solid, ray: Ray, parts: Sequence[Sandwich]) -> Viewport:
     ends = {e.rational() for part in parts for pair in part.outer for e in pair if e != INFINITY}
     known = [end for end in ends if end is not None]
     if not any(known):
-        away = [exact(_anchor(leaf)) - u for _, leaf in leaves(solid)]
+        away = [exact(points(leaf)[0]) - u for _, leaf in leaves(solid)]
         known = [max(map(abs, d.parts)) / speed for d in away]
     if not any(known):
         raise NotTried("the ray starts where the leaves are, and meets no end of theirs")
@@ -155,16 +156,6 @@ def _viewport(solid: Solid, ray: Ray, parts: Sequence[Sandwich]) -> Viewport:
     low, high = max(min(known) - pad, Fraction(0)), max(known) + pad
     center, reach = (low + high) / 2, (high - low) / 2
     return Viewport(u + center * v, 1 / power(reach * root(v @ v)), low, high)
-
-
-def _anchor(leaf: Leaf) -> Vector:
-    """Return a point that a leaf is given by."""
-    match leaf:
-        case Sphere():
-            return leaf.center
-        case HalfSpace():
-            return leaf.point
-    return leaf.p
 
 
 def _compare(
@@ -181,26 +172,18 @@ def _compare(
 
 def _build(solid: Solid, view: Viewport, fineness: Fineness, side: Side) -> Manifold:
     """Return the inner or outer body of a solid; a part that is taken away changes sides."""
-    match solid:
-        case Union():
-            kind = OpType.Add
-        case Intersection():
-            kind = OpType.Intersect
-        case Difference():
-            kind = OpType.Subtract
-        case _:
-            return _leaf(solid, view, fineness, side)
+    if not isinstance(solid, Tree):
+        return _leaf(solid, view, fineness, side)
     away = Side(-side.value) if isinstance(solid, Difference) else side
     parts = [_build(part, view, fineness, away if i else side) for i, part in enumerate(solid.of)]
-    return Manifold.batch_boolean(parts, kind)
+    return Manifold.batch_boolean(parts, BOOLEANS[type(solid)])
 
 
 def _leaf(leaf: Leaf, view: Viewport, fineness: Fineness, side: Side) -> Manifold:
     """Return a unit body, moved to where its leaf is in the view."""
-    surface = _ball if isinstance(leaf, Sphere) else _prism
     if side is Side.INNER and not getattr(leaf, "radius", True):
         return Manifold()
-    vertices, faces = surface(fineness, side)
+    vertices, faces = _unit_surface(isinstance(leaf, Sphere), fineness, side)
     middle, columns = _place(leaf, view)
     if max(map(abs, middle.parts)) > 4 * LARGEST:
         raise NotTried("a leaf is far from where the leaves begin and end")
@@ -211,14 +194,9 @@ def _leaf(leaf: Leaf, view: Viewport, fineness: Fineness, side: Side) -> Manifol
     return body
 
 
-@lru_cache(maxsize=8)
-def _prism(fineness: Fineness, side: Side) -> tuple[Floats, np.ndarray]:
-    return prism_surface(fineness, side, WIDE)
-
-
-@lru_cache(maxsize=8)
-def _ball(fineness: Fineness, side: Side) -> tuple[Floats, np.ndarray]:
-    return ball_surface(fineness, side, WIDE)
+@lru_cache(maxsize=16)
+def _unit_surface(sphere: bool, fineness: Fineness, side: Side) -> tuple[Floats, np.ndarray]:
+    return (ball_surface if sphere else prism_surface)(fineness, side, WIDE)
 
 
 def _place(leaf: Leaf, view: Viewport) -> tuple[Vec, tuple[Vec, Vec, Vec]]:
@@ -277,10 +255,10 @@ def _cast(solid: Manifold, ray: Ray, view: Viewport) -> Intervals:
     return _alternating(hits(body, line), line)
 
 
-def _alternating(crossings: Crossings, line: CastLine) -> Intervals:
+def _alternating(found: Sequence[Hit], line: CastLine) -> Intervals:
     """Return the list that hits make which enter and leave in turn, each at a place of its own."""
     ends: list[tuple[float, bool]] = []
-    for tau, inward in zip(crossings.tau.tolist(), crossings.inward, strict=True):
+    for tau, _, inward in found:
         apart = tau - ends[-1][0] if ends else 1.0
         if apart <= SPREAD and ends[-1][1] == inward:
             continue
@@ -290,6 +268,6 @@ def _alternating(crossings: Crossings, line: CastLine) -> Intervals:
     turns = [inward for _, inward in ends]
     if turns != [True, False] * (len(ends) // 2):
         raise Unsure("the hits of the combined bodies do not enter and leave in turn")
-    times = [surd(line.t0 + line.pace * (Fraction(tau) - AWAY)) for tau, _ in ends]
+    times = [surd(line.time(tau)) for tau, _ in ends]
     pairs: list[Interval] = list(zip(times[::2], times[1::2], strict=True))
     return tuple((max(a, ZERO), b) for a, b in pairs if b > ZERO)

@@ -22,17 +22,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from time import perf_counter
 
 from raycert.cases.dice import Dice
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, Leaf, Ray, Solid, Tree, Vector, leaves
 from raycert.oracle.exact.intervals import Intervals
-from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, fraction
+from raycert.oracle.exact.surd import INFINITY, ZERO
 from raycert.oracle.witness.bodies import Body, ChordEnd, Fineness, Side, Unsure, ball, chord, prism
 from raycert.oracle.witness.placement import AWAY, CastLine, Placed, line, place
-from raycert.oracle.witness.sandwich import ALL, NONE, Sandwich, combine, judge, length, show
+from raycert.oracle.witness.sandwich import ALL, NONE, Sandwich, combine, judge, length, show, surd
 from raycert.oracle.witness.testimony import Testimony
 
 try:
@@ -112,8 +111,8 @@ def _list(body: Body, placed: Placed, cast: CastLine) -> Intervals:
     enter, leave = found
     if placed.still:
         return ALL if enter.tau < AWAY < leave.tau else NONE
-    low = _time(enter, cast) if _counts(enter, body, placed) else ZERO
-    high = _time(leave, cast) if _counts(leave, body, placed) else INFINITY
+    low = surd(cast.time(enter.tau)) if _counts(enter, body, placed) else ZERO
+    high = surd(cast.time(leave.tau)) if _counts(leave, body, placed) else INFINITY
     return ((max(low, ZERO), high),) if high > ZERO else NONE
 
 
@@ -125,12 +124,6 @@ def _counts(end: ChordEnd, body: Body, placed: Placed) -> bool:
     if len(counted) > 1:
         raise Unsure("a hit lies on the rim of an artificial end")
     return counted.pop()
-
-
-def _time(end: ChordEnd, cast: CastLine) -> Surd:
-    """Return the ray's t at an end of a chord, exactly."""
-    t = cast.t0 + cast.pace * (Fraction(end.tau) - AWAY)
-    return fraction(t.numerator, t.denominator)
 
 
 SIDES = tuple(2**k for k in range(3, 13))

@@ -48,8 +48,6 @@ class Part(Enum):
     TOP = 2
 
 
-EVERY_PART = frozenset(Part)
-
 AWAY = 8
 """How many steps before the middle a cast starts; a step is 0.7 to 2, a body lies within 1.6."""
 
@@ -66,7 +64,7 @@ class Placed:
 
     forms: tuple[Form, Form, Form]
     round: bool
-    parts: frozenset[Part] = EVERY_PART
+    parts: frozenset[Part] = frozenset(Part)
     hollow: bool = False
     """The leaf has no interior: its inner body is empty."""
 
@@ -87,6 +85,10 @@ class CastLine:
     direction: tuple[float, float, float]
     t0: Fraction
     pace: Fraction
+
+    def time(self, tau: float) -> Fraction:
+        """Return the ray's t at a parameter of the cast, exactly."""
+        return self.t0 + self.pace * (Fraction(tau) - AWAY)
 
 
 def exact(vector: Vector) -> Vec:
@@ -116,11 +118,7 @@ def root(square: Fraction) -> Fraction:
 
 def power(size: Fraction) -> Fraction:
     """Return the power of two 2^k with 1/2 < size / 2^k < 2, size > 0."""
-    return two_to(size.numerator.bit_length() - size.denominator.bit_length())
-
-
-def two_to(k: int) -> Fraction:
-    return Fraction(1 << k) if k >= 0 else Fraction(1, 1 << -k)
+    return Fraction(2) ** (size.numerator.bit_length() - size.denominator.bit_length())
 
 
 def place(leaf: Leaf, ray: Ray) -> Placed:
@@ -231,8 +229,9 @@ def line(placed: Placed) -> CastLine | None:
 
 def moderate(v: Vec) -> Fraction:
     """Return the power of two by which v gets a length of 0.7 to 2."""
-    square = v @ v
-    return two_to(-((square.numerator.bit_length() - square.denominator.bit_length()) // 2))
+    square: Fraction = v @ v
+    k = (square.numerator.bit_length() - square.denominator.bit_length()) // 2
+    return Fraction(2) ** -k
 
 
 def _through(middle: Vec, d: Vec, t0: Fraction, pace: Fraction) -> CastLine | None:

@@ -16,27 +16,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from itertools import combinations
+from types import SimpleNamespace
 from typing import Any
 
-from sympy import (
-    And,
-    Expr,
-    Implies,
-    Not,
-    Or,
-    Poly,
-    Symbol,
-    diff,
-    expand,
-    fraction,
-    solve,
-    symbols,
-    together,
-)
+import sympy as sp
 from sympy.logic.boolalg import Boolean
-from sympy.logic.inference import satisfiable
 
-from raycert.cases.model import Cylinder, HalfSpace, InfiniteCylinder, Sphere
 from raycert.cases.table import HALF_SPACE, HOLDS, PROBLEM_1, PROBLEM_2, PROBLEM_3, Row
 from raycert.oracle.exact.leaf import ball, caps, half_space, wall
 from raycert.oracle.witness.symbols import RADIUS, S_AXIS, T, globe, named, plane, rod
@@ -76,45 +61,20 @@ class _Number:
         return self.value
 
 
-@dataclass(frozen=True, slots=True)
-class _Grid:
-    """Passes for the oracle's grid, in units of 1; S is the root of what `surd` takes it of."""
-
-    u: Any
-    v: Any
-
-    def point(self, x: Any) -> Any:
-        return x
-
-    def scalar(self, x: Any) -> Any:
-        return x
-
-    def surd(self, x: Any, y: Any, d: Any, z: Any) -> Any:
-        return (x + y * Symbol("S", positive=True)) / z if d != 0 else x / z
-
-
-def _leaf(kind: type, **fields: Any) -> Any:
-    """Return a leaf with symbols for numbers, its checks passed by."""
-    leaf: Any = object.__new__(kind)
-    for name, value in fields.items():
-        object.__setattr__(leaf, name, value)
-    return leaf
-
-
 @cache
 def _names() -> dict[str, Any]:
     """Return what the texts of the statements may name."""
     u, v, p, x, h, a, b = (named(name) for name in ("u", "v", "p", "x", "h", "a", "b"))
-    big, root, r = symbols("l S r", positive=True)
+    big, root, r = sp.symbols("l S r", positive=True)
     w, y = big * h, u - p
     q, away = p + w, p + S_AXIS * h - x
     known = {"u": u, "v": v, "p": p, "q": q, "x": x, "h": h, "a": a, "b": b, "w": w, "y": y}
     known |= {"n": -h, "r": r, "l": big, "S": root, "t": T, "s": S_AXIS}
     known |= {"vbar": v ^ h, "ybar": y ^ h, "D": away @ away}
-    slope = diff(known["D"], S_AXIS)
+    slope = sp.diff(known["D"], S_AXIS)
     # Solved with h.h = 1 put in, as the derivation does: the slope is 2 s - 2 (x - p).h.
-    (least,) = solve(slope.subs(h.z**2, 1 - h.x**2 - h.y**2).expand(), S_AXIS)
-    known |= {"dD": slope, "ddD": diff(slope, S_AXIS), "s0": least}
+    (least,) = sp.solve(slope.subs(h.z**2, 1 - h.x**2 - h.y**2).expand(), S_AXIS)
+    known |= {"dD": slope, "ddD": sp.diff(slope, S_AXIS), "s0": least}
     known["Dmin"] = known["D"].subs(S_AXIS, least)
     swap = dict(zip(named("y").parts + named("w").parts, y.parts + w.parts, strict=True))
     for name, poly in (("F", rod()), ("G", globe()), ("H", plane())):
@@ -123,21 +83,24 @@ def _names() -> dict[str, Any]:
 
 
 def _oracle_names(known: dict[str, Any]) -> dict[str, Any]:
-    grid: Any = _Grid(known["u"].parts, known["v"].parts)
-    p, q, r = known["p"].parts, known["q"].parts, known["r"]
-    quadric = wall(_leaf(InfiniteCylinder, p=p, q=q, radius=r), grid)
-    low, high = caps(_leaf(Cylinder, p=p, q=q, radius=r), grid)
-    normal = tuple(map(_Number, known["w"].parts))
-    return {
-        "wall": quadric,
-        "ball": ball(_leaf(Sphere, center=p, radius=r), grid),
-        "cap_p": low,
-        "cap_q": high,
-        "half": half_space(_leaf(HalfSpace, point=p, normal=normal), grid),
-        "roots": quadric.roots(grid, quadric.disc),
-        "cross_p": low.crossing(grid),
-        "cross_q": high.crossing(grid),
-    }
+    """Return what the oracle's code makes of namespaces that pass for its grid and its leaves.
+
+    The grid's unit is 1, and S the root of what `surd` takes it of.
+    """
+
+    def surd(x: Any, y: Any, d: Any, z: Any) -> Any:
+        return (x + y * known["S"]) / z if d != 0 else x / z
+
+    u, v, p, q, w = (known[name].parts for name in "uvpqw")
+    grid: Any = SimpleNamespace(u=u, v=v, point=lambda x: x, scalar=lambda x: x, surd=surd)
+    axial: Any = SimpleNamespace(p=p, q=q, radius=known["r"])
+    sphere: Any = SimpleNamespace(center=p, radius=known["r"])
+    half: Any = SimpleNamespace(point=p, normal=tuple(map(_Number, w)))
+    quadric, (low, high) = wall(axial, grid), caps(axial, grid)
+    names = {"wall": quadric, "roots": quadric.roots(grid, quadric.disc)}
+    names |= {"ball": ball(sphere, grid), "half": half_space(half, grid)}
+    names |= {"cap_p": low, "cross_p": low.crossing(grid)}
+    return names | {"cap_q": high, "cross_q": high.crossing(grid)}
 
 
 PROOFS: tuple[tuple[str, str], ...] = (
@@ -193,22 +156,21 @@ def equal(text: str) -> bool:
     return vanishes(left - right)
 
 
-def vanishes(expression: Expr) -> bool:
+def vanishes(expression: sp.Expr) -> bool:
     """Whether the numerator is the zero polynomial modulo h.h - 1.
 
     As a polynomial in h3 the divisor h3^2 + h1^2 + h2^2 - 1 is monic, so the remainder is zero if
     and only if the numerator is a multiple of it.
     """
-    numerator, _ = fraction(together(expression))
+    numerator, _ = sp.fraction(sp.together(expression))
     h = named("h")
-    return bool(Poly(expand(numerator), h.z).rem(Poly(h @ h - 1, h.z)).is_zero)
+    return bool(sp.Poly(sp.expand(numerator), h.z).rem(sp.Poly(h @ h - 1, h.z)).is_zero)
 
 
 def derivation() -> list[Statement]:
     """Return every statement, in the order of the derivation, each proved now."""
     algebra = [Statement(title, pretty(text), equal(text)) for title, text in PROOFS]
-    tables = [Statement(*proof) for proof in table_proofs()]
-    return algebra + tables
+    return [*algebra, *table_proofs()]
 
 
 def pretty(text: str) -> str:
@@ -223,69 +185,64 @@ Rows = tuple[Row, ...]
 
 def holds(quantity: str, relation: str) -> Boolean:
     """Return the formula that a quantity stands in a relation to zero."""
-    return Or(*(Symbol(f"{quantity}[{'-0+'[sign + 1]}]") for sign in HOLDS[relation]))
+    return sp.Or(*(sp.Symbol(f"{quantity}[{'-0+'[sign + 1]}]") for sign in HOLDS[relation]))
 
 
 def _one_sign(quantity: str) -> Boolean:
     atoms = [holds(quantity, relation) for relation in ("< 0", "= 0", "> 0")]
-    return And(Or(*atoms), *(Not(And(a, b)) for a, b in combinations(atoms, 2)))
+    return sp.And(sp.Or(*atoms), *(sp.Not(sp.And(a, b)) for a, b in combinations(atoms, 2)))
 
 
-AXIOMS: dict[str, tuple[tuple[str, Boolean], ...]] = {
-    "Problem 1": (
+TABLES: dict[str, tuple[Rows, tuple[tuple[str, Boolean], ...]]] = {
+    "Problem 1": (PROBLEM_1, (
         ("vv = |vbar|^2 >= 0", holds("vv", ">= 0")),
-        ("t1 <= t2, so t2 < 0 means t1 < 0", Implies(holds("t2", "< 0"), holds("t1", "< 0"))),
-        ("t1 <= t2, so t1 > 0 means t2 > 0", Implies(holds("t1", "> 0"), holds("t2", "> 0"))),
-    ),
-    "Problem 2 (c)": (),
-    "Problem 2": (
+        ("t1 <= t2, so t2 < 0 means t1 < 0", sp.Implies(holds("t2", "< 0"), holds("t1", "< 0"))),
+        ("t1 <= t2, so t1 > 0 means t2 > 0", sp.Implies(holds("t1", "> 0"), holds("t2", "> 0"))),
+    )),
+    "Problem 2 (c)": (HALF_SPACE, ()),
+    "Problem 2": (PROBLEM_2, (
         ("up - uq = -l < 0, so up >= 0 means uq > 0",
-         Implies(holds("up", ">= 0"), holds("uq", "> 0"))),
+         sp.Implies(holds("up", ">= 0"), holds("uq", "> 0"))),
         ("up - uq = -l < 0, so uq <= 0 means up < 0",
-         Implies(holds("uq", "<= 0"), holds("up", "< 0"))),
-    ),
-    "Problem 3": (
-        ("no count is negative", And(holds("pairs_1", ">= 0"), holds("pairs_2", ">= 0"))),
-    ),
+         sp.Implies(holds("uq", "<= 0"), holds("up", "< 0"))),
+    )),
+    "Problem 3": (PROBLEM_3, (
+        ("no count is negative", sp.And(holds("pairs_1", ">= 0"), holds("pairs_2", ">= 0"))),
+    )),
 }  # fmt: skip
-"""What each table takes from the derivation."""
-
-TABLES: dict[str, Rows] = {
-    "Problem 1": PROBLEM_1,
-    "Problem 2 (c)": HALF_SPACE,
-    "Problem 2": PROBLEM_2,
-    "Problem 3": PROBLEM_3,
-}
+"""Each table, and what it takes from the derivation."""
 
 
-def table_proofs() -> Iterator[tuple[str, str, bool]]:
-    """Yield (title, text, proved) for each table: complete, and exclusive."""
-    for name, table in TABLES.items():
+def table_proofs() -> Iterator[Statement]:
+    """Yield two statements for each table: that it is complete, and exclusive."""
+    for name, (table, axioms) in TABLES.items():
         rows = ", ".join(row.name for row in table)
-        given = "; ".join(text for text, _ in AXIOMS[name])
+        given = "; ".join(text for text, _ in axioms)
         why = f" (with {given})" if given else ""
-        yield f"{name}, complete", f"one of {rows} always holds{why}", complete(table, name)
-        yield f"{name}, exclusive", f"no two of {rows} hold at once{why}", exclusive(table, name)
+        some = f"one of {rows} always holds{why}"
+        yield Statement(f"{name}, complete", some, complete(table, name))
+        once = f"no two of {rows} hold at once{why}"
+        yield Statement(f"{name}, exclusive", once, exclusive(table, name))
 
 
 def complete(table: Rows, name: str) -> bool:
     """Whether the axioms leave no situation without a row."""
-    return not satisfiable(And(_axioms(table, name), Not(Or(*map(_condition, table)))))
+    return not sp.satisfiable(sp.And(_axioms(table, name), sp.Not(sp.Or(*map(_condition, table)))))
 
 
 def exclusive(table: Rows, name: str) -> bool:
     """Whether the axioms leave no situation with two rows, and each row with one."""
     axioms = _axioms(table, name)
     return not any(
-        satisfiable(And(axioms, _condition(one), _condition(two)))
+        sp.satisfiable(sp.And(axioms, _condition(one), _condition(two)))
         for one, two in combinations(table, 2)
-    ) and all(satisfiable(And(axioms, _condition(row))) for row in table)
+    ) and all(sp.satisfiable(sp.And(axioms, _condition(row))) for row in table)
 
 
 def _axioms(table: Rows, name: str) -> Boolean:
     quantities = sorted({quantity for row in table for quantity, _ in row.condition})
-    return And(*map(_one_sign, quantities), *(axiom for _, axiom in AXIOMS[name]))
+    return sp.And(*map(_one_sign, quantities), *(axiom for _, axiom in TABLES[name][1]))
 
 
 def _condition(row: Row) -> Boolean:
-    return And(*(holds(quantity, relation) for quantity, relation in row.condition))
+    return sp.And(*(holds(quantity, relation) for quantity, relation in row.condition))

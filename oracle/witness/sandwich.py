@@ -16,7 +16,7 @@ from math import inf
 
 from raycert.cases.model import Difference, Intersection, Tree, Union
 from raycert.oracle.exact.intervals import Interval, Intervals
-from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, decimal
+from raycert.oracle.exact.surd import INFINITY, ZERO, Surd, decimal, fraction
 from raycert.oracle.witness.testimony import Outcome
 
 NONE: Intervals = ()
@@ -31,6 +31,10 @@ class Sandwich:
     inner: Intervals
     outer: Intervals
     doubts: tuple[str, ...] = ()
+
+
+def surd(x: Fraction) -> Surd:
+    return fraction(x.numerator, x.denominator)
 
 
 def covers(intervals: Intervals, low: Surd, high: Surd) -> bool:
@@ -50,24 +54,21 @@ def select(lists: Sequence[Intervals], rule: Rule) -> Intervals:
     return tuple(kept)
 
 
+def _only_first(inside: Sequence[bool]) -> bool:
+    return inside[0] and not any(inside[1:])
+
+
+RULES: dict[type, Rule] = {Union: any, Intersection: all, Difference: _only_first}
+
+
 def combine(tree: Tree, parts: Sequence[Sandwich]) -> Sandwich:
     """Return the sandwich of a Boolean: a part that is taken away changes sides."""
     inner, outer = [part.inner for part in parts], [part.outer for part in parts]
     doubts = tuple(doubt for part in parts for doubt in part.doubts)
-    match tree:
-        case Union():
-            return Sandwich(select(inner, any), select(outer, any), doubts)
-        case Intersection():
-            return Sandwich(select(inner, all), select(outer, all), doubts)
-        case Difference():
-            first, others = parts[0], parts[1:]
-            deep = [first.inner, *(part.outer for part in others)]
-            wide = [first.outer, *(part.inner for part in others)]
-            return Sandwich(select(deep, _only_first), select(wide, _only_first), doubts)
-
-
-def _only_first(inside: Sequence[bool]) -> bool:
-    return inside[0] and not any(inside[1:])
+    if isinstance(tree, Difference):
+        inner, outer = [inner[0], *outer[1:]], [outer[0], *inner[1:]]
+    rule = RULES[type(tree)]
+    return Sandwich(select(inner, rule), select(outer, rule), doubts)
 
 
 def judge(answer: Intervals, sandwich: Sandwich) -> tuple[Outcome, str]:

@@ -15,22 +15,7 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from sympy import (
-    QQ,
-    ZZ,
-    Expr,
-    Integer,
-    Poly,
-    Rational,
-    cancel,
-    diff,
-    expand,
-    intervals,
-    lambdify,
-    solve,
-    symbols,
-    together,
-)
+import sympy as sp
 
 from raycert.cases.model import (
     HalfSpace,
@@ -48,41 +33,41 @@ from raycert.oracle.exact.surd import Surd
 from raycert.oracle.witness.algebra import Vec, combine, runs
 from raycert.oracle.witness.testimony import Testimony, compared
 
-T, S_AXIS, RADIUS = symbols("t s r", real=True)
+T, S_AXIS, RADIUS = sp.symbols("t s r", real=True)
 
 
 def named(name: str) -> Vec:
-    return Vec(*symbols(f"{name}1:4", real=True))
+    return Vec(*sp.symbols(f"{name}1:4", real=True))
 
 
-def distance_squared(x: Vec, p: Vec, w: Vec) -> Expr:
+def distance_squared(x: Vec, p: Vec, w: Vec) -> sp.Expr:
     """Return the least squared distance of x from a point p + s w of the line, by minimisation."""
     away = p + S_AXIS * w - x
     square = away @ away
-    (nearest,) = solve(diff(square, S_AXIS), S_AXIS)
-    return together(square.subs(S_AXIS, nearest))
+    (nearest,) = sp.solve(sp.diff(square, S_AXIS), S_AXIS)
+    return sp.together(square.subs(S_AXIS, nearest))
 
 
 @cache
-def rod() -> Poly:
+def rod() -> sp.Poly:
     """Return |w|^2 (d^2 - r^2) along the ray, in t: derived, not written down."""
     y, v, w = (named(name) for name in "yvw")
-    origin = Vec(*(Integer(0),) * 3)
+    origin = Vec(*(sp.Integer(0),) * 3)
     condition = (w @ w) * (distance_squared(y + T * v, origin, w) - RADIUS**2)
-    return Poly(cancel(condition), T)
+    return sp.Poly(sp.cancel(condition), T)
 
 
 @cache
-def globe() -> Poly:
+def globe() -> sp.Poly:
     """Return |x - center|^2 - r^2 along the ray, in t, with y for u - center."""
     x = named("y") + T * named("v")
-    return Poly(expand(x @ x - RADIUS**2), T)
+    return sp.Poly(sp.expand(x @ x - RADIUS**2), T)
 
 
 @cache
-def plane() -> Poly:
+def plane() -> sp.Poly:
     """Return (x - point) . w along the ray, in t, with y for u - point."""
-    return Poly(expand((named("y") + T * named("v")) @ named("w")), T)
+    return sp.Poly(sp.expand((named("y") + T * named("v")) @ named("w")), T)
 
 
 Factor = tuple[int, ...]
@@ -96,20 +81,20 @@ ZERO: Name = ((1, 0), 0)
 class FactoredCondition:
     """A polynomial that is <= 0 inside, and its irreducible factors."""
 
-    polynomial: Poly
+    polynomial: sp.Poly
     factors: frozenset[Factor]
 
     @classmethod
     def of(cls, coefficients: list[Any]) -> FactoredCondition:
         """Return the condition with these rational coefficients, the highest power first."""
-        _, polynomial = Poly(coefficients, T, domain=QQ).clear_denoms(convert=True)
+        _, polynomial = sp.Poly(coefficients, T, domain=sp.QQ).clear_denoms(convert=True)
         if polynomial.degree() < 1:
             return cls(polynomial, frozenset())
         _, factors = polynomial.factor_list()
         return cls(polynomial, frozenset(_coefficients(f) for f, _ in factors))
 
 
-def _coefficients(polynomial: Poly) -> Factor:
+def _coefficients(polynomial: sp.Poly) -> Factor:
     sign = 1 if polynomial.LC() > 0 else -1
     return tuple(sign * int(c) for c in polynomial.all_coeffs())
 
@@ -136,8 +121,8 @@ def show(name: Name | None) -> str:
         return "inf"
     factor, root = name
     if len(factor) == 2:
-        return str(Rational(-factor[1], factor[0]))
-    return f"root {root} of {Poly(factor, T).as_expr()}"
+        return str(sp.Rational(-factor[1], factor[0]))
+    return f"root {root} of {sp.Poly(factor, T).as_expr()}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,7 +138,7 @@ class RealLine:
     def of(cls, conditions: dict[int, list[FactoredCondition]]) -> RealLine:
         """Return the line, 0 being a point even where no condition has a root there."""
         factors = sorted({f for c in conditions.values() for x in c for f in x.factors} | {ZERO[0]})
-        isolated = intervals([Poly(f, T, domain=ZZ) for f in factors], strict=True)
+        isolated = sp.intervals([sp.Poly(f, T, domain=sp.ZZ) for f in factors], strict=True)
         seen: dict[Factor, int] = {}
         names, boxes = [], []
         for box, which in isolated:
@@ -185,11 +170,11 @@ class RealLine:
 
 
 @cache
-def _function(condition: Callable[[], Poly]) -> Callable[..., list[Any]]:
+def _function(condition: Callable[[], sp.Poly]) -> Callable[..., list[Any]]:
     """Return a derived condition as a function of y, v, w and r to its coefficients."""
     names = [part for name in "yvw" for part in named(name).parts]
     # The derived polynomial, compiled: only +, -, * and integer powers, exact in any ring.
-    function: Callable[..., list[Any]] = lambdify(
+    function: Callable[..., list[Any]] = sp.lambdify(
         [*names, RADIUS], condition().all_coeffs(), modules=[{}], cse=True
     )
     return function
@@ -199,8 +184,8 @@ def _conditions(leaf: Leaf, ray: Ray) -> Iterator[FactoredCondition]:
     """Yield the conditions of a leaf, each <= 0 inside."""
     u, v = _exact(ray.origin), _exact(ray.direction)
 
-    def condition(derived: Callable[[], Poly], start: Vector, w: Vec, r: float = 0.0) -> Any:
-        y, radius = u - _exact(start), QQ(*r.as_integer_ratio())
+    def condition(derived: Callable[[], sp.Poly], start: Vector, w: Vec, r: float = 0.0) -> Any:
+        y, radius = u - _exact(start), sp.QQ(*r.as_integer_ratio())
         return FactoredCondition.of(_function(derived)(*y.parts, *v.parts, *w.parts, radius))
 
     match leaf:
@@ -219,4 +204,4 @@ def _conditions(leaf: Leaf, ray: Ray) -> Iterator[FactoredCondition]:
 
 
 def _exact(vector: Vector) -> Vec:
-    return Vec.of(vector, lambda x: QQ(*x.as_integer_ratio()))
+    return Vec.of(vector, lambda x: sp.QQ(*x.as_integer_ratio()))

@@ -15,7 +15,6 @@ from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.surd import Surd, decimal
 
 Outcome = Literal["agreed", "undecided", "disagreed"]
-OUTCOMES: tuple[Outcome, ...] = ("agreed", "undecided", "disagreed")
 T = TypeVar("T")
 
 
@@ -40,8 +39,8 @@ WITNESSES: dict[str, str] = {
 }
 """Each witness as `module:function`, in the order they run."""
 
-EXTRAS = {"symbols": "symbols", "meshes": "meshes"}
-"""The extra of the distribution that a witness needs."""
+EXTRAS = ("symbols", "meshes")
+"""Witnesses that need the extra of the distribution that has their name."""
 
 
 class Missing(ImportError):
@@ -56,7 +55,7 @@ def load(name: str) -> Witness:
     except ImportError as error:
         if name not in EXTRAS:
             raise
-        message = f'{name} needs {error.name}: pip install "raycert[{EXTRAS[name]}]"'
+        message = f'{name} needs {error.name}: pip install "raycert[{name}]"'
         raise Missing(message, name=error.name) from None
     return witness
 

@@ -1,8 +1,7 @@
 """Planted wrong tracers, and sound ones that differ: whether the corpus tells them apart.
 
     tracer       the base tracer, a frozen dataclass of steps; and what is said of a fault of it
-    walls        faults in Problem 1: the wall, the sphere, the discriminant
-    planes       faults in Problems 2 and 3: planes, caps, rims; strict comparisons
+    surfaces     faults in Problems 1 to 3: walls, spheres, planes, rims; strict comparisons
     limits       faults of reach: starts, self-hits, scales, units, precision
     lists        faults in the algebra of lists, of the reply's form, and of what is remembered
     inhabitants  all of them, the sound tracers, and the faults that need a process of their own

@@ -12,7 +12,7 @@ from typing import Any
 from raycert.cases.levels import Level
 from raycert.cases.model import Ray, Solid
 from raycert.cases.vectors import cross, dot, minus, times
-from raycert.oracle.zoo import limits, lists, planes, walls
+from raycert.oracle.zoo import limits, lists, surfaces
 from raycert.oracle.zoo.tracer import (
     BASE,
     PLAIN,
@@ -56,7 +56,7 @@ class ProcessFault:
     test: str
 
 
-FAULTS = (*walls.FAULTS, *planes.FAULTS, *limits.FAULTS, *lists.FAULTS)
+FAULTS = (*surfaces.FAULTS, *limits.FAULTS, *lists.FAULTS)
 """The planted faults, by the part of a tracer that they are in."""
 
 BY_NAME: dict[str, Fault] = {fault.name: fault for fault in FAULTS}
@@ -108,15 +108,10 @@ def _float(t: float) -> float:
         return inf
 
 
-def _no_points(pairs: Pairs) -> Pairs:
-    return [(a, b) for a, b in ahead(pairs) if a < b]
-
-
-def _negative_zero(solid: Solid, ray: Ray, pairs: Pairs) -> Pairs:
-    return [(a or -0.0, b or -0.0) for a, b in pairs]
-
-
-DROPPED: dict[str, Any] = {"chord": planes.off_wall, "plane": planes.off_plane, "ahead": _no_points}
+DROPPED: dict[str, Any] = {
+    "chord": surfaces.off_wall, "plane": surfaces.off_plane,
+    "ahead": lambda pairs: [(a, b) for a, b in ahead(pairs) if a < b],
+}  # fmt: skip
 """The steps of a tracer that drops what only touches."""
 
 UNSTRESSED = ("half_space", "slab")
@@ -137,5 +132,7 @@ SOUND: tuple[Sound, ...] = (
           "stable", precision="binary32"),
     Sound("regularized", "drops what only touches", replace(BASE, **DROPPED), "stable",
           convention="regularized"),
-    Sound("negative-zero", "answers -0 for 0", replace(BASE, tell=_negative_zero), "stable"),
+    Sound("negative-zero", "answers -0 for 0",
+          replace(BASE, tell=lambda _, __, pairs: [(a or -0.0, b or -0.0) for a, b in pairs]),
+          "stable"),
 )  # fmt: skip

@@ -29,23 +29,6 @@ def wanted(is_wanted: Callable[[float, float], bool]) -> Callable[[Pairs], Pairs
     return lambda pairs: ahead([(a, b) for a, b in pairs if is_wanted(a, b)])
 
 
-def after(least: float) -> Callable[[Pairs], Pairs]:
-    """Return the step that cuts off at a least t other than 0."""
-    return lambda pairs: [(max(a, least), b) for a, b in pairs if b >= least]
-
-
-def _unclipped(pairs: Pairs) -> Pairs:
-    return [(0.0 if a == -inf else a, b) for a, b in pairs if a != -inf or b >= 0]
-
-
-def _snapped(pairs: Pairs) -> Pairs:
-    return ahead([(0.0 if abs(a) < 1e-6 else a, 0.0 if abs(b) < 1e-6 else b) for a, b in pairs])
-
-
-def _mirrored(pairs: Pairs) -> Pairs:
-    return [(a, b) if b >= 0 else (-b, -a) for a, b in ahead(pairs) or pairs]
-
-
 def _at_rest(answer: Callable[[], Pairs]) -> Tell:
     """Return the step that answers otherwise to the zero direction."""
     return lambda solid, ray, pairs: pairs if any(ray.direction) else answer()
@@ -75,10 +58,6 @@ def _in_lengths(solid: Solid, ray: Ray, pairs: Pairs) -> Pairs:
     return [(a * length, b * length) for a, b in pairs]
 
 
-def _short(solid: Solid, ray: Ray) -> tuple[Solid, Ray]:
-    return solid, ray if hypot(*ray.direction) >= 1e-8 else Ray(ray.origin, (0.0, 0.0, 0.0))
-
-
 def _welded(leaf: Any) -> Leaf:
     if hasattr(leaf, "q") and max(abs(a - b) for a, b in zip(leaf.p, leaf.q, strict=True)) < 1e-8:
         raise ValueError("degenerate axis: p and q are the same vertex")
@@ -100,9 +79,11 @@ def _flushed(x: float) -> float:
 FAULTS: tuple[Fault, ...] = (
     fault("no-clip", "does not cut off what lies at t < 0",
           "erincatto/box2d #523; turanszkij/WickedEngine #1695", "behind", "malformed",
-          ahead=_unclipped),
+          ahead=lambda pairs: [(0.0 if a == -inf else a, b) for a, b in pairs
+                               if a != -inf or b >= 0]),
     fault("behind-mirrored", "takes |t| of what lies behind", "NVIDIA PhysX #487", "behind",
-          "phantom", ahead=_mirrored),
+          "phantom", ahead=lambda pairs:
+          [(a, b) if b >= 0 else (-b, -a) for a, b in ahead(pairs) or pairs]),
     fault("behind-at-zero", "clamps both ends to 0: what lies behind is a hit at the start",
           "a student's slip", "behind", "phantom",
           ahead=lambda pairs: [(max(a, 0.0), max(b, 0.0)) for a, b in pairs]),
@@ -115,7 +96,8 @@ FAULTS: tuple[Fault, ...] = (
           "openmc-dev/openmc PR #3923; dartsim/dart PR #3355", "start-on-surface", "missed",
           ahead=wanted(lambda a, b: a != 0)),
     fault("self-hit", "begins at t = 1e-4 against self-hits", "the habit of a shadow epsilon",
-          "start-inside", "wrong end", ahead=after(1e-4)),
+          "start-inside", "wrong end",
+          ahead=lambda pairs: [(max(a, 1e-4), b) for a, b in pairs if b >= 1e-4]),
     fault("self-hit-lost", "drops a solid whose first root is below 1e-3",
           "the habit of a shadow epsilon", "start-on-surface", "missed",
           ahead=wanted(lambda a, b: not -1e-3 < a < 1e-3)),
@@ -128,7 +110,8 @@ FAULTS: tuple[Fault, ...] = (
           "VecGeom ba71e216: a tolerance shell", "start-near-surface", "malformed",
           ahead=lambda pairs: [(a if a > -1e-9 else 0.0, b) for a, b in pairs if b > -1e-9]),
     fault("snapped", "takes |t| < 1e-6 for 0", "Geant4 CSG/History 2008-06-23",
-          "start-near-surface", "wrong end", ahead=_snapped),
+          "start-near-surface", "wrong end", ahead=lambda pairs: ahead(
+              [(0.0 if abs(a) < 1e-6 else a, 0.0 if abs(b) < 1e-6 else b) for a, b in pairs])),
     fault("rest-crash", "divides by the length of the direction, be it zero",
           "dimforge/ncollide #178; tommy-xr/shock2quest PR #409", "zero-direction", "crash",
           tell=_at_rest(_divided)),
@@ -140,7 +123,9 @@ FAULTS: tuple[Fault, ...] = (
           "SlimDX/slimdx #493; davideberly/GeometricTools #20; moveit/geometric_shapes #115",
           "direction-scale", "phantom", tell=_in_lengths),
     fault("short-direction", "takes a direction shorter than 1e-8 for zero",
-          "PixarAnimationStudios/OpenUSD PR #4221", "direction-scale", "missed", read=_short),
+          "PixarAnimationStudios/OpenUSD PR #4221", "direction-scale", "missed",
+          read=lambda solid, ray:
+          (solid, ray if hypot(*ray.direction) >= 1e-8 else Ray(ray.origin, (0.0, 0.0, 0.0)))),
     fault("far-clip", "looks no farther than t = 1e7", "godotengine/godot #72338; a far plane",
           "far-deep", "missed",
           ahead=lambda pairs: [(a, min(b, 1e7)) for a, b in ahead(pairs) if a <= 1e7]),

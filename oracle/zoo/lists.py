@@ -51,10 +51,6 @@ def _in_order(lists: Sequence[Pairs]) -> Pairs:
     return sorted(found)
 
 
-def _hull(pairs: Pairs) -> Pairs:
-    return [(pairs[0][0], pairs[-1][1])] if pairs else []
-
-
 def _odd(lists: Sequence[Pairs]) -> Pairs:
     """Return the t in an odd number of the lists, by counting surfaces."""
     ends = sorted(t for pairs in lists for pair in pairs for t in pair)
@@ -204,7 +200,7 @@ FAULTS: tuple[Fault, ...] = (
           unite=lambda lists: min((x for x in lists if x), default=[])),
     fault("union-hull", "answers a union from its first enter to its last leave",
           "a student's slip: one interval for all", "csg-union", "wrong end",
-          unite=lambda lists: _hull(unite(lists))),
+          unite=lambda lists: [(x[0][0], x[-1][1]) for x in [unite(lists)] if x]),
     fault("even-odd", "takes for inside what lies behind an odd number of surfaces",
           "moveit/geometric_shapes a627e6f; crossing counts", "csg-union", "count", unite=_odd),
     fault("first-advances", "advances only the first list of an intersection",

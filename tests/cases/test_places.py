@@ -34,7 +34,7 @@ PLACES = {
     "oracle.witness.manifold": "its meshes inside and around it",
     "oracle.witness.placement": "the frame in which a mesh stands",
     "oracle.zoo.tracer": "a tracer with one place for each fault",
-    "oracle.zoo.walls": "faults of its walls",
+    "oracle.zoo.surfaces": "faults of its walls",
     "oracle.explain.leaf_steps": "the steps of its derivation",
     "oracle.reports.section": "the plane to look at it in",
     "oracle.hunt.look": "where its faces cannot move",
