@@ -97,7 +97,7 @@ def _oracle_names(known: dict[str, Any]) -> dict[str, Any]:
     sphere: Any = SimpleNamespace(center=p, radius=known["r"])
     half: Any = SimpleNamespace(point=p, normal=tuple(map(_Number, w)))
     quadric, (low, high) = wall(axial, grid), caps(axial, grid)
-    names = {"wall": quadric, "roots": quadric.roots(grid, quadric.disc)}
+    names: dict[str, Any] = {"wall": quadric, "roots": quadric.roots(grid, quadric.disc)}
     names |= {"ball": ball(sphere, grid), "half": half_space(half, grid)}
     names |= {"cap_p": low, "cross_p": low.crossing(grid)}
     return names | {"cap_q": high, "cross_q": high.crossing(grid)}
