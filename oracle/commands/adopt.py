@@ -2,19 +2,31 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from raycert.cases.corpus import BadCorpus
+from raycert.cases.families.adopted import BadAdopted
+from raycert.cases.formats import FORMATS, Format
 from raycert.cases.levels import TIERS
 from raycert.oracle.commands.asking import from_json
 from raycert.oracle.commands.options import FOLDER, PRECISIONS, BadInput, check_writable
-
-if TYPE_CHECKING:
-    from raycert.cases.formats import Format
-    from raycert.oracle.corpus.adopt import Candidate
-    from raycert.oracle.witness.crosscheck import Hearing
+from raycert.oracle.corpus.adopt import (
+    CORPUS,
+    Candidate,
+    Unfit,
+    examine,
+    from_row,
+    installed,
+    rows_in,
+)
+from raycert.oracle.corpus.adopt import adopt as keep
+from raycert.oracle.corpus.golden import Contradiction
+from raycert.oracle.witness.crosscheck import Hearing
+from raycert.oracle.witness.testimony import WITNESSES
 
 EPILOG = """\b
 Examples:
@@ -63,12 +75,6 @@ def adopt(file: Path, family: str, slug: str | None, corpus: Path | None, **opti
     Its id is FAMILY/SLUG, and no slug is used twice. `raycert golden write` makes the same rows
     again. The witnesses that are installed are asked; one that finds another answer refuses.
     """
-    from raycert.cases.corpus import BadCorpus
-    from raycert.cases.families.adopted import BadAdopted
-    from raycert.oracle.corpus.adopt import Unfit, examine, installed
-    from raycert.oracle.corpus.adopt import adopt as keep
-    from raycert.oracle.corpus.golden import Contradiction
-
     folder = _corpus(corpus)
     check_writable(folder, "--corpus")
     found = _found(file, options)
@@ -87,8 +93,6 @@ def adopt(file: Path, family: str, slug: str | None, corpus: Path | None, **opti
 
 def _corpus(corpus: Path | None) -> Path:
     """Return the folder of the corpus: the one given, or that of the checkout this runs in."""
-    from raycert.oracle.corpus.adopt import CORPUS
-
     if corpus is not None:
         return corpus
     if not (CORPUS.parent / "pyproject.toml").is_file():
@@ -98,11 +102,6 @@ def _corpus(corpus: Path | None) -> Path:
 
 def _found(file: Path, options: dict[str, Any]) -> Candidate:
     """Return the case of the file, with what the options say of it."""
-    from dataclasses import replace
-
-    from raycert.cases.formats import FORMATS
-    from raycert.oracle.corpus.adopt import Candidate
-
     fmt, id = FORMATS[options["precision"]], options["id"]
     if file.is_dir() or file.suffix == ".jsonl":
         found = _row(file, fmt, id, options["why"])
@@ -116,9 +115,6 @@ def _found(file: Path, options: dict[str, Any]) -> Candidate:
 
 
 def _row(file: Path, fmt: Format, id: str | None, why: str) -> Candidate:
-    from raycert.cases.corpus import BadCorpus
-    from raycert.oracle.corpus.adopt import from_row, rows_in
-
     try:
         rows = rows_in(file, fmt)
     except BadCorpus as error:
@@ -136,8 +132,6 @@ def _row(file: Path, fmt: Format, id: str | None, why: str) -> Candidate:
 
 
 def _say(checked: Hearing) -> None:
-    from raycert.oracle.witness.testimony import WITNESSES
-
     click.echo(f"exactly {checked.answer}")
     said = dict.fromkeys(WITNESSES, "not installed, not asked")
     for name, verdict, _ in checked.testimonies:

@@ -5,11 +5,20 @@ from __future__ import annotations
 import re
 import shlex
 from collections import Counter
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
+from rich.box import SIMPLE_HEAD
+from rich.console import Console
+from rich.table import Table
 
+from raycert.cases.draw import fresh
+from raycert.cases.formats import BINARY64
+from raycert.cases.forms import read_ray, read_solid
+from raycert.cases.model import Ray, Refused, Solid
+from raycert.cases.protocol import BadLine, ask, decode
 from raycert.oracle.commands.options import (
     PRECISIONS,
     counting,
@@ -19,12 +28,9 @@ from raycert.oracle.commands.options import (
     repeatable,
     stop,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from raycert.cases.model import Ray, Solid
-    from raycert.oracle.witness.crosscheck import Hearing, Query, Score, Summary
+from raycert.oracle.witness.crosscheck import Hearing, Query, Score, Summary
+from raycert.oracle.witness.crosscheck import crosscheck as run
+from raycert.oracle.witness.testimony import Missing, load
 
 NAMES = ("definition", "enclosure", "symbols", "meshes")
 SHOWN = 10
@@ -65,7 +71,6 @@ def crosscheck(names: tuple[str, ...], **options: Any) -> None:
         raise click.UsageError("--family, --fresh and --json exclude one another")
     if options["golden"] and (options["fresh"] or options["lines"]):
         raise click.UsageError("--golden goes with golden rows, not with --fresh or --json")
-    from raycert.oracle.witness.crosscheck import Query
 
     chosen = tuple(name for name in NAMES if name in names) or NAMES
     _require(chosen)
@@ -81,8 +86,6 @@ def crosscheck(names: tuple[str, ...], **options: Any) -> None:
 
 def _require(names: Sequence[str]) -> None:
     """Stop, naming what to install, if a witness cannot be loaded."""
-    from raycert.oracle.witness.testimony import Missing, load
-
     for name in names:
         try:
             load(name)
@@ -95,8 +98,6 @@ def _questions(options: dict[str, Any]) -> Iterable[tuple[str, Solid, Ray]]:
     if options["lines"]:
         return [_read(line, f"json-{i}") for i, line in enumerate(options["lines"], 1)]
     if options["fresh"]:
-        from raycert.cases.draw import fresh
-
         cases = fresh(options["fresh"], options["seed"])
         return [(f"fresh/{case.slug}", case.solid, case.ray) for case in cases]
     return _rows(options["golden"], options["families"])
@@ -104,10 +105,6 @@ def _questions(options: dict[str, Any]) -> Iterable[tuple[str, Solid, Ray]]:
 
 def _read(line: str, id: str) -> tuple[str, Solid, Ray]:
     """Return the case on a line of the protocol, as it is sent to an implementation."""
-    from raycert.cases.forms import read_ray, read_solid
-    from raycert.cases.model import Refused
-    from raycert.cases.protocol import BadLine, decode
-
     try:
         form = decode(line.encode())
         solid, ray = read_solid(form.get("solid")), read_ray(form.get("ray"))
@@ -127,9 +124,6 @@ def _rows(folder: Path | None, families: tuple[str, ...]) -> list[tuple[str, Sol
 
 
 def _crosscheck(questions: list[Query], names: Sequence[str], workers: int) -> int:
-    from raycert.oracle.witness.crosscheck import Summary
-    from raycert.oracle.witness.crosscheck import crosscheck as run
-
     summary = Summary()
     with counting("cross-checking", len(questions)) as advance:
         for checked in run(questions, names, workers):
@@ -145,9 +139,6 @@ def _crosscheck(questions: list[Query], names: Sequence[str], workers: int) -> i
 
 def _print_difference(checked: Hearing, names: Sequence[str]) -> None:
     """Print the case, all answers, and the command that repeats it."""
-    from raycert.cases.formats import BINARY64
-    from raycert.cases.protocol import ask
-
     question = checked.query
     line = ask(question.id, question.solid, question.ray, "decimal", BINARY64).decode().strip()
     click.echo(f"{question.id}: the oracle and a witness differ")
@@ -162,10 +153,6 @@ def _print_difference(checked: Hearing, names: Sequence[str]) -> None:
 
 def _table(title: str | None, headings: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
     """Print a table, the numbers in it to the right."""
-    from rich.box import SIMPLE_HEAD
-    from rich.console import Console
-    from rich.table import Table
-
     table = Table(box=SIMPLE_HEAD, title=title, title_justify="left")
     for heading in headings:
         table.add_column(heading, justify="left" if heading == "witness" else "right")

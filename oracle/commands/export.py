@@ -4,10 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from raycert.cases.corpus import Corpus
+from raycert.cases.formats import Format
+from raycert.cases.model import SOLIDS, Solid, Tree, type_of, types
+from raycert.cases.numbers import leaf_numbers
+from raycert.cases.row import End, GoldenRow
 from raycert.oracle.commands.listing import select
 from raycert.oracle.commands.options import (
     BadInput,
@@ -19,12 +24,6 @@ from raycert.oracle.commands.options import (
     unknown,
     write_text,
 )
-
-if TYPE_CHECKING:
-    from raycert.cases.corpus import Corpus
-    from raycert.cases.formats import Format
-    from raycert.cases.model import Solid
-    from raycert.cases.row import End, GoldenRow
 
 HEADER = """id tier type solid ray expected down up decisive
 sound_inner sound_outer sound_most stable_inner stable_outer stable_most touches"""
@@ -116,8 +115,6 @@ def export(out: str, solids: str | None, precision: str, golden: Path | None, **
 
 def _made_of(rows: list[GoldenRow], solids: str) -> list[GoldenRow]:
     """Return the rows whose solids are made of some types alone."""
-    from raycert.cases.model import SOLIDS, types
-
     allowed = {name.strip() for name in solids.split(",")}
     for name in sorted(allowed - SOLIDS.keys()):
         unknown("solid", name, SOLIDS)
@@ -168,9 +165,6 @@ def merged_ends(row: GoldenRow) -> list[tuple[End, End]]:
 
 def _solid(solid: Solid, fmt: Format) -> str:
     """Return a solid in prefix notation."""
-    from raycert.cases.model import Tree, type_of
-    from raycert.cases.numbers import leaf_numbers
-
     if isinstance(solid, Tree):
         return f"{type_of(solid)} {_words([_solid(part, fmt) for part in solid.of])}"
     return f"{type_of(solid)} {_numbers(leaf_numbers(solid), fmt)}"

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
+from raycert.cases.case import Family
+from raycert.cases.corpus import GOLDEN
+from raycert.cases.families.catalog import FAMILIES
 from raycert.oracle.commands.options import FOLDER, KNOWN_FOLDER, check_writable, counting
-
-if TYPE_CHECKING:
-    from raycert.cases.case import Family
+from raycert.oracle.corpus.adopt import sources
+from raycert.oracle.corpus.golden import RELEASE, USUAL, Contradiction, compare
+from raycert.oracle.corpus.golden import write as write_files
 
 folder_option = click.option(
     "--golden",
@@ -44,9 +46,6 @@ def write(folder: Path | None, corpus: Path | None, release: bool) -> None:
     The witnesses by definition and by enclosure check each row. A row on which one disagrees is
     not written, and neither is anything else.
     """
-    from raycert.oracle.corpus.golden import RELEASE, USUAL, Contradiction
-    from raycert.oracle.corpus.golden import write as write_files
-
     target, families = _place(folder, corpus)
     check_writable(target, "--golden")
     try:
@@ -64,8 +63,6 @@ def write(folder: Path | None, corpus: Path | None, release: bool) -> None:
 @corpus_option
 def check(folder: Path | None, corpus: Path | None) -> None:
     """Compute every row and compare bytes and values with the files; exit 1 on any difference."""
-    from raycert.oracle.corpus.golden import compare
-
     target, families = _place(folder, corpus)
     if not target.is_dir():
         raise click.BadParameter(f"no such directory: {target}", param_hint="--golden")
@@ -83,10 +80,6 @@ def check(folder: Path | None, corpus: Path | None) -> None:
 
 def _place(folder: Path | None, corpus: Path | None) -> tuple[Path, tuple[Family, ...]]:
     """Return where the golden files are, and the families that make them."""
-    from raycert.cases.corpus import GOLDEN
-    from raycert.cases.families.catalog import FAMILIES
-    from raycert.oracle.corpus.adopt import sources
-
     if corpus is None:
         return folder or GOLDEN, FAMILIES
     if folder is not None:

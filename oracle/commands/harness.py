@@ -5,13 +5,12 @@ from __future__ import annotations
 import shlex
 from collections.abc import Iterator
 from dataclasses import dataclass
+from importlib.resources.abc import Traversable
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-if TYPE_CHECKING:
-    from importlib.resources.abc import Traversable
+from raycert.cases.corpus import write_whole
 
 MARK = b"replace from here"
 """Begins the one place, in one file of each language, that is the user's."""
@@ -110,8 +109,6 @@ def _walk(folder: Traversable, path: str) -> Iterator[tuple[str, bytes]]:
 
 def _write(folder: Path, files: dict[str, bytes], force: bool) -> None:
     """Write all the files, or none where one is there already."""
-    from raycert.cases.corpus import write_whole
-
     there = [str(folder / name) for name in files if (folder / name).exists()]
     if there and not force:
         raise click.UsageError(f"already there: {', '.join(there)}; --force overwrites")

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import json
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
 
+from raycert.cases.corpus import Corpus
 from raycert.oracle.commands.options import (
     FILE,
     KNOWN_FOLDER,
@@ -17,15 +22,8 @@ from raycert.oracle.commands.options import (
     repeatable,
     write_text,
 )
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from rich.console import Console
-    from rich.table import Table
-
-    from raycert.cases.corpus import Corpus
-    from raycert.oracle.zoo.matrix import MatrixLine
+from raycert.oracle.zoo import matrix
+from raycert.oracle.zoo.inhabitants import BY_NAME, FAULTS
 
 HELP = """Try planted wrong tracers on the golden rows: which family refuses which fault, and why.
 
@@ -55,26 +53,19 @@ WIDE = 100
 @click.option("--write-smoke", "folder", type=KNOWN_FOLDER, help=SMOKE)
 def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: Path | None) -> None:
     """Try planted wrong tracers on the golden rows."""
-    import json
-
-    from rich.console import Console
-
-    from raycert.oracle.zoo.inhabitants import BY_NAME
-    from raycert.oracle.zoo.matrix import Trials, form, line
-
     if unknown := [name for name in names if name not in BY_NAME]:
         raise click.BadParameter(f"no such fault: {', '.join(unknown)}", param_hint="--fault")
     if folder:
         _write_smoke(golden, folder)
         return
     corpus = read("binary64", golden)
-    trials, lines = Trials(corpus.rows, corpus.format), []
+    trials, lines = matrix.Trials(corpus.rows, corpus.format), []
     with counting("trying", len(names or BY_NAME)) as advance:
         for name in names or BY_NAME:
-            lines.append(line(trials, BY_NAME[name]))
+            lines.append(matrix.line(trials, BY_NAME[name]))
             advance()
     if out:
-        write_text(out, json.dumps(form(corpus, lines), indent=1) + "\n")
+        write_text(out, json.dumps(matrix.form(corpus, lines), indent=1) + "\n")
     console = Console()
     console.print(_table(lines, console.width))
     if names:
@@ -83,20 +74,14 @@ def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: P
 
 
 def _write_smoke(golden: Path | None, folder: Path) -> None:
-    from raycert.oracle.zoo.inhabitants import FAULTS
-    from raycert.oracle.zoo.matrix import chosen
-
     for precision in PRECISIONS:
         with counting(f"trying in {precision}", len(FAULTS)) as advance:
-            ids = chosen(read(precision, golden), advance)
+            ids = matrix.chosen(read(precision, golden), advance)
         write_text(folder / f"{precision}.txt", "".join(f"{id}\n" for id in ids))
         click.echo(f"{precision}: {len(ids)} rows")
 
 
-def _table(lines: Sequence[MatrixLine], width: int) -> Table:
-    from rich.table import Table
-    from rich.text import Text
-
+def _table(lines: Sequence[matrix.MatrixLine], width: int) -> Table:
     table = Table(box=None, pad_edge=False, padding=(0, 1))
     for name in ("fault", "made for it", "refuses", "how", "all"):
         table.add_column(name, no_wrap=True, justify="right" if name == "all" else "left")
@@ -119,7 +104,7 @@ def _table(lines: Sequence[MatrixLine], width: int) -> Table:
     return table
 
 
-def _families(lines: Sequence[MatrixLine], console: Console) -> None:
+def _families(lines: Sequence[matrix.MatrixLine], console: Console) -> None:
     """Print, for each fault, who refuses it."""
     for line in lines:
         console.print(f"\n[bold]{line.fault.name}[/bold]: a tracer that {line.fault.does}")
@@ -130,7 +115,7 @@ def _families(lines: Sequence[MatrixLine], console: Console) -> None:
             console.print(f"  {family}: {counts}", highlight=False)
 
 
-def _summary(corpus: Corpus, lines: Sequence[MatrixLine], console: Console) -> int:
+def _summary(corpus: Corpus, lines: Sequence[matrix.MatrixLine], console: Console) -> int:
     trouble = [line for line in lines if line.trouble]
     rows = f"{len(corpus.rows)} rows of corpus {corpus.version}"
     console.print(f"\n{len(lines)} faults, {rows}: ", end="", highlight=False)
