@@ -22,7 +22,7 @@ WHY = ("--why", "A ray crosses a cylinder aside of its axis.")
 def usual_witnesses(monkeypatch: pytest.MonkeyPatch) -> None:
     """Ask the two quick witnesses, which need no extra."""
     monkeypatch.setattr(
-        "raycert.oracle.corpus.adopt.installed", lambda: ("definition", "enclosure")
+        "raycert.oracle.commands.adopt.installed", lambda: ("definition", "enclosure")
     )
 
 
@@ -62,7 +62,7 @@ def test_a_witness_that_disagrees_is_exit_1(
     def differs(*_: object) -> None:
         raise Contradiction("definition finds [[1, 2]]")
 
-    monkeypatch.setattr("raycert.oracle.corpus.adopt.examine", differs)
+    monkeypatch.setattr("raycert.oracle.commands.adopt.examine", differs)
     result = run(file, tmp_path / "mine", "--family", "crossed", *WHY)
     assert result.exit_code == 1
     assert "nothing was written: definition finds" in result.stderr
@@ -112,7 +112,9 @@ def test_of_several_rows_one_is_to_be_chosen(file: Path, tmp_path: Path) -> None
 def test_outside_a_checkout_a_corpus_is_to_be_named(
     file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("raycert.oracle.corpus.adopt.CORPUS", tmp_path / "site-packages" / "cases")
+    monkeypatch.setattr(
+        "raycert.oracle.commands.adopt.CORPUS", tmp_path / "site-packages" / "cases"
+    )
     result = CliRunner().invoke(adopt, [str(file), "--family", "crossed", *WHY])
     assert result.exit_code == 2
     assert "--corpus DIR" in result.stderr
