@@ -15,7 +15,7 @@ import click
 
 from raycert.cases.formats import FORMATS, Format
 from raycert.cases.forms import Json, read_ray, read_solid
-from raycert.cases.model import Refused
+from raycert.cases.model import FIELDS, TYPE_NAMES, Refused
 from raycert.cases.numbers import Probe
 from raycert.cases.protocol import BadLine, decode
 from raycert.cases.row import GoldenRow
@@ -24,21 +24,15 @@ from raycert.oracle.exact.surd import enclose, fraction
 from raycert.oracle.explain.wording import Fact, about, dyadic
 
 SHAPES = {
-    "cylinder": ("p", "q", "radius"),
-    "infinite_cylinder": ("p", "q", "radius"),
-    "slab": ("p", "q"),
-    "half_space": ("point", "normal"),
-    "sphere": ("center", "radius"),
-}
-"""The solids that options can spell, and the fields in the order of their words."""
-HELP = {
     "cylinder": "Axis from P to Q, radius R.",
     "infinite_cylinder": "Axis through P and Q, radius R.",
     "slab": "Between the planes through P and Q, square to PQ.",
     "half_space": "On the side of POINT away from NORMAL.",
     "sphere": "About CENTER, radius R.",
 }
-
+"""The solids that options can spell."""
+WORDS = {TYPE_NAMES[kind]: fields for kind, fields in FIELDS.items()}
+"""What the words of one are, in their order: its fields."""
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 
@@ -47,21 +41,17 @@ def case_options(function: Decorated) -> Decorated:
 
     `count_given` says how many of the three there are, `chosen` gives the case.
     """
-    function = golden_option(precision_option(function))
-    function = click.option(
-        "--json",
-        "file",
-        type=click.File("rb"),
-        help="File with solid and ray; - is standard input.",
-    )(function)
-    function = click.option("--ray", nargs=2, metavar="U V", help="Origin and direction.")(function)
-    for name in reversed(SHAPES):
-        words = ["R" if field == "radius" else field.upper() for field in SHAPES[name]]
-        option, metavar = f"--{name.replace('_', '-')}", " ".join(words)
-        function = click.option(option, name, nargs=len(words), metavar=metavar, help=HELP[name])(
-            function
-        )
-    return click.argument("id", required=False)(function)
+    options = [click.argument("id", required=False)]
+    for name, about_it in SHAPES.items():
+        words = ["R" if field == "radius" else field.upper() for field in WORDS[name]]
+        more: dict[str, Any] = {"nargs": len(words), "metavar": " ".join(words), "help": about_it}
+        options.append(click.option(f"--{name.replace('_', '-')}", name, **more))
+    options.append(click.option("--ray", nargs=2, metavar="U V", help="Origin and direction."))
+    file = "File with solid and ray; - is standard input."
+    options.append(click.option("--json", "file", type=click.File("rb"), help=file))
+    for option in reversed((*options, precision_option, golden_option)):
+        function = option(function)
+    return function
 
 
 def count_given(options: dict[str, Any]) -> int:
@@ -114,13 +104,12 @@ def _spelling(ray: object) -> Any:
 
 def _from_words(options: dict[str, Any], fmt: Format, rounded: list[Fact]) -> Probe:
     """Return the solid and the ray of the options; note in `rounded` each number not exact."""
-    shapes = [name for name in SHAPES if options[name]]
-    if len(shapes) != 1 or not options["ray"]:
+    name, *more = [name for name in SHAPES if options[name]] or [""]
+    if not name or more or not options["ray"]:
         raise click.UsageError("give one solid and its ray: --cylinder P Q R --ray U V")
-    name = shapes[0]
     solid: Json = {"type": name}
     try:
-        for field, word in zip(SHAPES[name], options[name], strict=True):
+        for field, word in zip(WORDS[name], options[name], strict=True):
             read = _number if field == "radius" else _vector
             solid[field] = read(word, f"solid.{field}", fmt, rounded)
         fields = zip(("origin", "direction"), options["ray"], strict=True)

@@ -88,15 +88,17 @@ def explain(form: str, symbolic: bool, full: bool, **options: Any) -> None:
     if page and page != "-":
         check_writable(Path(page).parent, "--html")
     derivation = _derivation(options) if given else None
-    statements = _proofs() if symbolic else None
+    statements = _proofs() if symbolic else []
     if page and derivation is not None:
         _write(page, derivation, options)
         derivation = None
     if form == "json":
-        _print_json(derivation, statements)
+        proofs = [{"title": s.title, "text": s.text, "proved": s.proved} for s in statements]
+        shown = {"symbolic": proofs} if symbolic else {}
+        click.echo(json.dumps(shown | (to_json(derivation) if derivation else {}), indent=1))
     else:
         _print(derivation, statements, full)
-    if not all(statement.proved for statement in statements or ()):
+    if not all(statement.proved for statement in statements):
         raise SystemExit(1)
 
 
@@ -158,22 +160,11 @@ def _repeat(derivation: Derivation, options: dict[str, Any]) -> str:
     return line if id else f"{line} <<< {shlex.quote(json.dumps(case))}"
 
 
-def _print(derivation: Derivation | None, statements: list[Statement] | None, full: bool) -> None:
+def _print(derivation: Derivation | None, statements: list[Statement], full: bool) -> None:
     console = Console()
-    if statements is not None:
+    if statements:
         show_proofs(statements, console)
-    if statements is not None and derivation is not None:
+    if statements and derivation:
         console.print()
-    if derivation is not None:
+    if derivation:
         show(derivation, console, full)
-
-
-def _print_json(derivation: Derivation | None, statements: list[Statement] | None) -> None:
-    form: dict[str, Any] = {}
-    if statements is not None:
-        form["symbolic"] = [
-            {"title": s.title, "text": s.text, "proved": s.proved} for s in statements
-        ]
-    if derivation is not None:
-        form |= to_json(derivation)
-    click.echo(json.dumps(form, indent=1))

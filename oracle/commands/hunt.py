@@ -174,12 +174,11 @@ def _watched(budget: Any) -> Iterator[Callable[[Hunt], None]]:
 
 def status(found: Hunt) -> str:
     causes = len(found.findings)
-    plural = "" if causes == 1 else "s"
-    return f"{found.tried} cases, {causes} cause{plural} of failure, worst k {worst(found)}"
-
-
-def worst(found: Hunt) -> str:
-    return f"{found.worst.k:g}" if found.worst.probe else "<= 1"
+    plural, worst = (
+        "" if causes == 1 else "s",
+        f"{found.worst.k:g}" if found.worst.probe else "<= 1",
+    )
+    return f"{found.tried} cases, {causes} cause{plural} of failure, worst k {worst}"
 
 
 def _written(
@@ -192,9 +191,8 @@ def _written(
     try:
         rows = keep.rows(findings, found.looker) if findings else []
     except Contradiction as error:
-        raise click.ClickException(
-            f"the oracle is in doubt, nothing was written: {error}"
-        ) from None
+        doubt = f"the oracle is in doubt, nothing was written: {error}"
+        raise click.ClickException(doubt) from None
     report = keep.form(found, findings, asked)
     if findings or (options["out"] / keep.REPORT).exists():
         keep.write(options["out"], job.seed, rows, found.looker.hello.format, report)

@@ -28,33 +28,9 @@ from raycert.oracle.explain.console import case_lines
 from raycert.oracle.explain.derive import Derivation
 from raycert.oracle.explain.wording import Fact, Note, Table, numbers, shorten
 from raycert.oracle.judge.answer import First, YesNo
+from raycert.oracle.reports import picture
 from raycert.oracle.reports.page import render
-from raycert.oracle.reports.picture import (
-    GAP,
-    GUTTER,
-    PLOT,
-    ROW,
-    TALL,
-    WIDTH,
-    CaseLists,
-    Lane,
-    Pairs,
-    Ruler,
-    axis_of,
-    base_of,
-    drawing,
-    drawn,
-    el,
-    guides,
-    known,
-    label,
-    lanes,
-    pointer,
-    ray_height,
-    ticks,
-    ulp,
-    whole,
-)
+from raycert.oracle.reports.picture import GUTTER, PLOT, ROW, WIDTH, CaseLists, Lane, Pairs, Ruler
 from raycert.oracle.reports.reading import clean, number
 from raycert.oracle.reports.section import Slice, View, views
 
@@ -253,7 +229,7 @@ def _end(end: End) -> Fraction | float:
 def wholes(row: GoldenRow, all_lists: CaseLists, said: Sequence[AnswerLine]) -> Drawn:
     """Return the views of a case; under the first of them are the intervals over t."""
     found = views(row.solid, row.ray, all_lists.finite(all_lists.exact))
-    shown = (*known(all_lists), *(one.lane for one in said))
+    shown = (*picture.known(all_lists), *(one.lane for one in said))
     first = _view(found[0] if found else None, all_lists, shown)
     return [first, *(_view(view, all_lists, ()) for view in found[1:])]
 
@@ -261,21 +237,22 @@ def wholes(row: GoldenRow, all_lists: CaseLists, said: Sequence[AnswerLine]) -> 
 def _view(view: View | None, all_lists: CaseLists, shown: Sequence[Lane]) -> tuple[str, str]:
     """Return a view with the lines shown below it, on one scale of t; without a view the lines."""
     still = view is not None and view.still
-    axis = whole(all_lists) if view is None or still else axis_of(view.section)
-    top = 4.0 if view is None else TALL + GAP * bool(shown)
+    axis = picture.whole(all_lists) if view is None or still else picture.axis_of(view.section)
+    top = 4.0 if view is None else picture.TALL + picture.GAP * bool(shown)
     parts: list[Element] = []
     if view is not None:
-        parts += drawn(view.section, axis_of(view.section), still)
+        parts += picture.drawn(view.section, picture.axis_of(view.section), still)
     if view is not None and not still:
-        parts += guides(all_lists.finite(all_lists.exact), axis, top + ROW * bool(shown))
+        parts += picture.guides(all_lists.finite(all_lists.exact), axis, top + ROW * bool(shown))
         parts += _inside(view.section, axis, all_lists.exact)
     name = "The intervals" if view is None else view.name
     if still and not shown:
-        return name, drawing(TALL + 4, name, *parts)
+        return name, picture.drawing(picture.TALL + 4, name, *parts)
     foot = top + len(shown) * ROW
     scale, offset = _scale(axis, foot)
     caption = f"{name}, over t{offset}" if shown or offset else name
-    return caption, drawing(foot + 20, caption, *parts, *lanes(shown, axis, top), *scale)
+    parts += [*picture.lanes(shown, axis, top), *scale]
+    return caption, picture.drawing(foot + 20, caption, *parts)
 
 
 def _scale(axis: Ruler, foot: float) -> tuple[list[Element], str]:
@@ -285,22 +262,22 @@ def _scale(axis: Ruler, foot: float) -> tuple[list[Element], str]:
     if abs(bits) > USUAL or abs(axis.middle) > 2**USUAL:
         power = bits * 3 // 10
         name = f"t / 1e{power}"
-        scale = list(ticks(axis, Fraction(0), Fraction(10) ** power, foot))
-        return [*scale, label(0, foot + 16, name, "name")], f" / 1e{power}"
-    base = base_of(axis)
-    scale = [*ticks(axis, base, Fraction(1), foot)]
-    scale.append(label(0, foot + 16, "t - c" if base else "t", "name"))
+        scale = list(picture.ticks(axis, Fraction(0), Fraction(10) ** power, foot))
+        return [*scale, picture.label(0, foot + 16, name, "name")], f" / 1e{power}"
+    base = picture.base_of(axis)
+    scale = [*picture.ticks(axis, base, Fraction(1), foot)]
+    scale.append(picture.label(0, foot + 16, "t - c" if base else "t", "name"))
     return scale, f" - c, c = {float(base):.17g}" if base else ""
 
 
 def _inside(scene: Slice, axis: Ruler, exact: Pairs) -> Iterator[Element]:
-    y = ray_height(scene)
+    y = picture.ray_height(scene)
     for enter, leave in exact:
         a, b = (max(GUTTER, min(axis.x(t), WIDTH)) for t in (enter, leave))
         if b - a >= 1:
-            yield el("line", x1=a, x2=b, y1=y, y2=y, kind="inside")
+            yield picture.el("line", x1=a, x2=b, y1=y, y2=y, kind="inside")
         elif axis.shows(enter):
-            yield el("circle", cx=a, cy=y, r=4, kind="exact")
+            yield picture.el("circle", cx=a, cy=y, r=4, kind="exact")
 
 
 def closeups(
@@ -317,7 +294,8 @@ def closeups(
             t = _end(end)
             if not isinstance(t, Fraction) or not t or not isfinite(end.nearest):
                 continue
-            if len(found) == ENDS or (last is not None and abs(t - last) < 2 * ulp(t, fmt)):
+            same = last is not None and abs(t - last) < 2 * picture.ulp(t, fmt)
+            if same or len(found) == ENDS:
                 continue
             last = t
             offs = [_off(one, end, (i, side), all_lists, fmt) for one in said]
@@ -334,19 +312,20 @@ def _close(
 ) -> tuple[str, str]:
     said, offs = answers
     origin = Fraction(end.nearest)
-    unit = ulp(origin, fmt)
+    unit = picture.ulp(origin, fmt)
     reach = max([NARROW, *(abs(off) for off in offs if off is not None and abs(off) <= WIDE)])
     axis = Ruler(origin, reach * unit * Fraction(26, 10) / Fraction(PLOT))
-    shown = (*known(all_lists), *(one.lane for one in said))
+    shown = (*picture.known(all_lists), *(one.lane for one in said))
     top = 4.0
     foot = top + len(shown) * ROW
-    parts = [*_numbers(axis, origin, unit, foot), *lanes(shown, axis, top)]
-    parts += [*ticks(axis, origin, unit, foot), label(0, foot + 16, "ulps", "name")]
+    parts = [*_numbers(axis, origin, unit, foot), *picture.lanes(shown, axis, top)]
+    parts += picture.ticks(axis, origin, unit, foot)
+    parts.append(picture.label(0, foot + 16, "ulps", "name"))
     for i, off in enumerate(offs, 2):
         if off is not None and not axis.shows(origin + off * unit):
-            parts.append(pointer(off, top + i * ROW))
+            parts.append(picture.pointer(off, top + i * ROW))
     caption = f"{name} at t = {end.nearest!r}, in ulps of {float(unit):.2g}"
-    return caption, drawing(foot + 20, caption, *parts)
+    return caption, picture.drawing(foot + 20, caption, *parts)
 
 
 def _off(
@@ -362,7 +341,7 @@ def _off(
     if not one.point and len(one.pairs or ()) == len(all_lists.exact):
         same = (one.pairs or ())[place[0]][place[1]]
         ends = [same] if isinstance(same, Fraction) else []
-    off = min(((x - origin) / ulp(origin, fmt) for x in ends), key=abs, default=None)
+    off = min(((x - origin) / picture.ulp(origin, fmt) for x in ends), key=abs, default=None)
     return None if off is None or (one.point and abs(off) > WIDE) else off
 
 
@@ -373,4 +352,4 @@ def _numbers(axis: Ruler, origin: Fraction, unit: Fraction, foot: float) -> Iter
         return
     for n in range(-count, count + 1):
         x = axis.x(origin + n * unit)
-        yield el("line", x1=x, x2=x, y1=0, y2=foot, kind="unit")
+        yield picture.el("line", x1=x, x2=x, y1=0, y2=foot, kind="unit")

@@ -15,7 +15,6 @@ from math import inf, isinf
 from pathlib import Path
 from typing import Any
 
-from raycert.cases.case import Case, Family
 from raycert.cases.corpus import MANIFEST, encode_rows, manifest, read_manifest, write_whole
 from raycert.cases.formats import Format
 from raycert.cases.forms import write_ray, write_solid
@@ -23,7 +22,7 @@ from raycert.cases.numbers import Probe
 from raycert.cases.protocol import Reply
 from raycert.cases.row import GoldenRow
 from raycert.oracle.client.dialogue import Outcome, silence
-from raycert.oracle.corpus.golden import USUAL, golden_row
+from raycert.oracle.corpus.golden import USUAL
 from raycert.oracle.hunt.look import Looker
 from raycert.oracle.hunt.search import Finding, Hunt
 
@@ -52,19 +51,13 @@ def rows(findings: dict[str, Finding], looker: Looker) -> list[GoldenRow]:
     for id, finding in findings.items():
         if finding.repeats:
             for i, probe in enumerate(finding.before, 1):
-                before = _row(f"{id}-before-{i}", "Is asked before the next row.", probe, looker)
-                found.append(before)
+                why = "Is asked before the next row."
+                found.append(looker.row(probe, f"{id}-before-{i}", why, USUAL))
             text = f"{finding.flaw.level}, {finding.flaw.kind}: {finding.flaw.reason}"
             how = text.encode("ascii", "backslashreplace").decode()[:200]
             why = f"A hunt found an answer here that fails: {how}."
-            found.append(_row(id, why, finding.probe, looker))
+            found.append(looker.row(finding.probe, id, why, USUAL))
     return found
-
-
-def _row(id: str, why: str, probe: Probe, looker: Looker) -> GoldenRow:
-    name, _, slug = id.partition("/")
-    asked = Case(slug, why, probe.solid, probe.ray, looker.tier(probe))
-    return golden_row(Family(name, "", lambda _: ()), asked, looker.hello.format, USUAL)
 
 
 def write(folder: Path, seed: int, rows: Sequence[GoldenRow], fmt: Format, report: Json) -> None:

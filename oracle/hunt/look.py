@@ -12,6 +12,7 @@ case table that the exact answer takes, without the comparisons.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
 
@@ -132,8 +133,8 @@ class Looker:
         wanted = self.criterion.convention
         if judge.tier != "lattice" or wanted is None or isinstance(judge.solid, Tree):
             return None
-        touches = [touch(interval, judge.solid, judge.ray) for interval in judge.exact]
-        name = next((name for name in touches if name), None)
+        touches = (touch(interval, judge.solid, judge.ray) for interval in judge.exact)
+        name = next(filter(None, touches), None)
         kept = said.keeps_touch(judge.expected) if name else None
         if name is None or kept is None or kept == convention(wanted)[name]:
             return None
@@ -155,13 +156,19 @@ class Looker:
 
     def _finer(self, probe: Probe, outcome: Outcome) -> Flaw | None:
         """Return how an answer fails `faithful` or `exact`, where it is stable."""
-        graded = grade(row(probe, self), outcome, self.hello)
+        graded = grade(self.row(probe, "hunt/case", "A hunt."), outcome, self.hello)
         for level in upto(self.criterion.level):
             if reason := graded.fault(level):
                 pairs, wanted = len(graded.answer or ()), len(graded.row.expected)
                 shape = "missed" if pairs < wanted else "phantom" if pairs > wanted else "wrong end"
                 return Flaw(level, shape, reason)
         return None
+
+    def row(self, probe: Probe, id: str, why: str, witnesses: Sequence[str] = ()) -> GoldenRow:
+        """Return the golden row of a probe. Raises `Contradiction` where a witness differs."""
+        family, _, slug = id.partition("/")
+        case = Case(slug, why, probe.solid, probe.ray, self.tier(probe))
+        return golden_row(Family(family, "", lambda _: ()), case, self.hello.format, witnesses)
 
     def true_k(self, probe: Probe, outcome: Outcome) -> float:
         """Return the strict backward error of an answer; 0 where the probe does not decide."""
@@ -171,11 +178,6 @@ class Looker:
         if "stable" not in deciding(judge):
             return 0.0
         return claim(outcome, self.hello).backward_error(judge, "strict")
-
-
-def row(probe: Probe, looker: Looker) -> GoldenRow:
-    case = Case("case", "A case of a hunt.", probe.solid, probe.ray, looker.tier(probe))
-    return golden_row(Family("hunt", "", lambda _: ()), case, looker.hello.format)
 
 
 def deciding(judge: Judge) -> tuple[Level, ...]:

@@ -60,7 +60,7 @@ from raycert.cases.numbers import (
     with_numbers,
 )
 from raycert.cases.vectors import along, dot, minus, plus, times
-from raycert.oracle.exact.surd import Surd, nearest
+from raycert.oracle.exact.surd import nearest
 from raycert.oracle.exact.trace import trace
 
 T = TypeVar("T")
@@ -90,9 +90,7 @@ def changed(
     """Return the probe with every point, radius, ... changed; None where that makes no solid."""
 
     def leaf(old: Leaf) -> Leaf:
-        values: dict[str, Any] = {
-            name: changes.get(name, point)(getattr(old, name)) for name in FIELDS[type(old)]
-        }
+        values = {name: changes.get(name, point)(getattr(old, name)) for name in FIELDS[type(old)]}
         return type(old)(**values)
 
     changes: dict[str, Callable[[Any], Any]] = {"radius": radius, "normal": normal}
@@ -188,7 +186,8 @@ def settle(probe: Probe, dice: Dice, fmt: Format) -> list[Probe]:
     ends = [end for pair in trace(probe.solid, probe.ray).intervals for end in pair if end.finite]
     others = []
     for end in ends[:3]:
-        t = _float(end)
+        t = nearest(end, BINARY64)
+        t = 0.0 if isinf(t) else t
         for beside in (0.0, ldexp(1.0, -dice.integer(4, 50)), -ldexp(1.0, -dice.integer(4, 50))):
             origin = along(probe.ray.origin, t + beside, probe.ray.direction)
             others.append(Probe(probe.solid, Ray(origin, probe.ray.direction)))
@@ -201,14 +200,8 @@ def turn(probe: Probe, dice: Dice, fmt: Format) -> list[Probe]:
     w = axis_of(pick(dice, [leaf for _, leaf in leaves(solid)]))
     lean = ldexp(1.0, -dice.integer(2, 50))
     across = pick(dice, ((-w[1], w[0], 0.0), (0.0, -w[2], w[1]), (w[2], 0.0, -w[0])))
-    others: list[Vector] = [
-        w,
-        along(w, lean, across),
-        across,
-        along(across, lean, w),
-        times(-1.0, ray.direction),
-        pick(dice, (ZERO, (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, -1.0))),
-    ]
+    others = [w, along(w, lean, across), across, along(across, lean, w), times(-1.0, ray.direction)]
+    others.append(pick(dice, (ZERO, (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, -1.0))))
     return of_format([Probe(solid, Ray(ray.origin, direction)) for direction in others], fmt)
 
 
@@ -241,11 +234,8 @@ def build(probe: Probe, dice: Dice, fmt: Format) -> list[Probe]:
     other: Solid = HalfSpace(base, w) if base else Sphere(ray.origin, 1.0)
     parts = [solid, beside.solid if beside else solid, other]
     one, two = pick(dice, parts), pick(dice, parts)
-    trees: list[Solid] = [
-        pick(dice, TREES)((one, two)),
-        Difference((solid, other)),
-        Union((solid, parts[1], other)),
-    ]
+    any_tree = pick(dice, TREES)((one, two))
+    trees: list[Solid] = [any_tree, Difference((solid, other)), Union((solid, parts[1], other))]
     return of_format([Probe(tree, ray) for tree in trees], fmt) if len(every) <= 4 else []
 
 
@@ -254,13 +244,8 @@ def on_lattice(dice: Dice) -> Probe:
     p, origin = _whole(dice), _whole(dice)
     w, radius = _along(dice), float(dice.integer(1, 2))
     q = plus(p, w)
-    choice: tuple[Leaf, ...] = (
-        HalfSpace(p, w),
-        Sphere(p, radius),
-        Slab(p, q),
-        InfiniteCylinder(p, q, radius),
-        Cylinder(p, q, radius),
-    )
+    flat: list[Leaf] = [HalfSpace(p, w), Sphere(p, radius), Slab(p, q)]
+    choice = [*flat, InfiniteCylinder(p, q, radius), Cylinder(p, q, radius)]
     return Probe(pick(dice, choice), Ray(origin, _along(dice)))
 
 
@@ -274,9 +259,7 @@ def _along(dice: Dice) -> Vector:
 
 
 TREES: tuple[type[Tree], ...] = (Union, Intersection, Difference)
-MOVES: tuple[Move, ...] = (
-    walk, walk, walk, nudge, simplify, retreat, settle, turn, rescale, build,
-)  # fmt: skip
+MOVES: tuple[Move, ...] = (*[walk] * 3, nudge, simplify, retreat, settle, turn, rescale, build)
 
 
 def _thinner(probe: Probe, dice: Dice, factor: float) -> Probe | None:
@@ -293,11 +276,6 @@ def _thinner(probe: Probe, dice: Dice, factor: float) -> Probe | None:
         return Probe(map_leaves(longer, probe.solid), probe.ray)
     except Refused:
         return None
-
-
-def _float(end: Surd) -> float:
-    t = nearest(end, BINARY64)
-    return 0.0 if isinf(t) else t
 
 
 Fails = Callable[[Sequence[Probe]], Sequence[bool]]
@@ -332,7 +310,7 @@ class Shrinker:
 
     def _pass(self, is_known: Callable[[Probe], bool]) -> bool:
         before = self.best
-        while self._to(fewer_parts(self.best)):
+        while self._to(Probe(solid, self.best.ray) for solid in fewer(self.best.solid)):
             pass
         self._draw()
         if is_known(self.best):
@@ -392,12 +370,8 @@ def number_cost(x: float) -> int:
     return 3 * digits + twos + 2 * (bottom.bit_length() - 1) + (x < 0)
 
 
-def fewer_parts(probe: Probe) -> Iterator[Probe]:
-    for solid in _fewer(probe.solid):
-        yield Probe(solid, probe.ray)
-
-
-def _fewer(solid: Solid) -> Iterator[Solid]:
+def fewer(solid: Solid) -> Iterator[Solid]:
+    """Yield a tree's parts, the tree without one, and all with a part or a leaf made simpler."""
     if isinstance(solid, Cylinder):
         yield Slab(solid.p, solid.q)
         yield InfiniteCylinder(solid.p, solid.q, solid.radius)
@@ -408,7 +382,7 @@ def _fewer(solid: Solid) -> Iterator[Solid]:
         before, after = solid.of[:i], solid.of[i + 1 :]
         if before or after:
             yield type(solid)((*before, *after))
-        for other in _fewer(part):
+        for other in fewer(part):
             yield type(solid)((*before, other, *after))
 
 

@@ -21,7 +21,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cache
-from math import log2
+from math import inf, log2
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 NEW, MOVED, PARTS = 48, 12, 16
 """Fresh probes of a round, probes moved in it, and parts that a way between two is cut in."""
 PATIENCE = 60
-"""Cases that Hypothesis has after a new cause: to find others, and to shrink them."""
+"""Cases that Hypothesis has after a new cause, to find others and to shrink: ours is faster."""
 HIGHEST = 64.0
 """The largest target: errors beyond it are all the same."""
 
@@ -172,19 +172,23 @@ def drawn(site: Site) -> None:
     from hypothesis import given, seed, target
     from hypothesis.errors import Flaky
 
-    patience, late = Patience(), False
+    causes, left, late = set[tuple[str, str, str]](), inf, False
 
     @_settings(site)  # above the seed, which takes the database away
     @seed(f"{site.job.seed} {site.unit.number}")
     @given(_probes(site))
     def search(drawn: Drawn) -> None:
-        patience.check()
+        nonlocal left
+        if left <= 0:
+            raise Spent
+        left -= 1
         for probe, seen in site.look([drawn.probe]):
             target(_height(seen.k), label="log2 k")
             target(_height(1 + seen.ulps), label="log2 ulps")
             if seen.flaw:
                 key = coarse(Suspect(probe, seen.flaw))
-                patience.grant(key)
+                left = left if key in causes else PATIENCE
+                causes.add(key)
                 raise named(key)()
 
     try:
@@ -202,14 +206,16 @@ def _settings(site: Site) -> settings:
     """Return how to search; kept examples are tried in the first unit only."""
     from hypothesis import HealthCheck, Phase, Verbosity
     from hypothesis import settings as decorator
+    from hypothesis.database import DirectoryBasedExampleDatabase
 
+    path = site.job.examples
     phases = [Phase.generate, Phase.target, Phase.shrink]
-    if site.job.examples is not None and site.unit.number < len(site.job.methods):
+    if path is not None and site.unit.number < len(site.job.methods):
         phases.insert(0, Phase.reuse)
     return decorator(
         max_examples=max(site.unit.cases // 2, 1),
         phases=phases,
-        database=_database(site),
+        database=None if path is None else DirectoryBasedExampleDatabase(path),
         deadline=None,
         derandomize=False,
         report_multiple_bugs=True,
@@ -246,27 +252,6 @@ class Drawn:
         return "a probe"
 
 
-class Patience:
-    """Ends a search PATIENCE cases after the last new cause: ours is the faster shrinker."""
-
-    def __init__(self) -> None:
-        self._known: set[tuple[str, str, str]] = set()
-        self._left = 0
-
-    def grant(self, key: tuple[str, str, str]) -> None:
-        """Take a cause; a new one gives time again."""
-        if key not in self._known:
-            self._known.add(key)
-            self._left = PATIENCE
-
-    def check(self) -> None:
-        """Count a case. Raises `Spent`."""
-        if self._known:
-            self._left -= 1
-            if self._left < 0:
-                raise Spent
-
-
 @cache
 def named(cause: tuple[str, str, str]) -> type[Wrong]:
     """Return the exception of a coarse cause: Hypothesis tells failures apart by their types."""
@@ -290,10 +275,3 @@ def _probes(site: Site) -> Any:
         return Drawn(Probe(*draw(some)))
 
     return hidden()
-
-
-def _database(site: Site) -> Any:
-    from hypothesis.database import DirectoryBasedExampleDatabase
-
-    path = site.job.examples
-    return None if path is None else DirectoryBasedExampleDatabase(path)

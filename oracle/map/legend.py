@@ -16,24 +16,8 @@ from typing import Any
 from raycert.cases.protocol import Reply
 from raycert.oracle.client.dialogue import silence
 from raycert.oracle.map.raster import At
-from raycert.oracle.map.sampling import (
-    BEYOND,
-    EXACT,
-    FAITHFUL,
-    FEW,
-    KINDS,
-    MANY,
-    NUMBERS,
-    RIGHT,
-    WITHIN,
-    Cell,
-    Kind,
-    Map,
-    between,
-)
+from raycert.oracle.map.sampling import KINDS, NUMBERS, ORDER, Cell, Kind, Map, between
 
-ORDER = (EXACT, FAITHFUL, *(how + k for k in (WITHIN, BEYOND) for how in (RIGHT, FEW, MANY)))
-"""The classes of a disagreement, from none to the worst."""
 Corner = tuple[int, int]
 """A corner of cells: (i, j) is the lower left one of the cell (i, j)."""
 Edge = tuple[Corner, Corner]

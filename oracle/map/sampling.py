@@ -38,6 +38,8 @@ NUMBERS = ("k", "ulps")
 EXACT, FAITHFUL = "the exact list, rounded", "each number next to the exact one"
 RIGHT, FEW, MANY = "as many pairs", "too few pairs", "too many pairs"
 WITHIN, BEYOND = ", k <= 64", ", k > 64"
+ORDER = (EXACT, FAITHFUL, *(how + k for k in (WITHIN, BEYOND) for how in (RIGHT, FEW, MANY)))
+"""The classes of a disagreement, from none to the worst."""
 Counting = Callable[[str, int], AbstractContextManager[Callable[..., None]]]
 
 

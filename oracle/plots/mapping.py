@@ -26,7 +26,6 @@ from matplotlib.patheffects import Normal, Stroke
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
 from raycert.oracle.map.legend import (
-    ORDER,
     axis_label,
     class_of,
     classes,
@@ -40,7 +39,7 @@ from raycert.oracle.map.legend import (
     thin,
 )
 from raycert.oracle.map.raster import At
-from raycert.oracle.map.sampling import NUMBERS, Cell, Kind, Map
+from raycert.oracle.map.sampling import NUMBERS, ORDER, Cell, Kind, Map
 from raycert.oracle.plots.style import FAINT, INK, PAPER, figure, plain, styled, write
 
 WIDTH, HEIGHT = 10.4, 6.4
@@ -57,7 +56,7 @@ REST, FAILED, REFUSED, ENDLESS = "#b4b4b4", "#4a1020", "#e2e2e2", "#c21f1f"
 DIFFERENCES = (
     "#f3f2ee", "#d3e6f2", "#9cc3e0", "#f7dfa8", "#e3d3ee", "#3f78ad", "#d2691e", "#8c1c5a",
 )  # fmt: skip
-"""By class of `raycert.oracle.map.legend.ORDER`."""
+"""By class of `raycert.oracle.map.sampling.ORDER`."""
 RIGHT_TO_WRONG = ("#fbf9ec", "#f5e6a9", "#eebf6b", "#d98a55", "#a8505f", "#64295f", "#2a0f3f")
 CURVES: dict[Kind, tuple[str, Any]] = {
     "double root": ("#000000", "-"),

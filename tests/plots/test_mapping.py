@@ -17,9 +17,9 @@ from PIL import Image
 
 from raycert.cases.model import Cylinder, Ray
 from raycert.oracle.client.target import target
-from raycert.oracle.map.legend import ORDER, class_of
+from raycert.oracle.map.legend import class_of
 from raycert.oracle.map.raster import Inputs, Raster, Unit
-from raycert.oracle.map.sampling import Map, Show, sample
+from raycert.oracle.map.sampling import ORDER, Map, Show, sample
 from raycert.oracle.plots.mapping import CURVES, DIFFERENCES, ENDLESS, FAILED, draw, palette, save
 from raycert.oracle.plots.style import styled
 
