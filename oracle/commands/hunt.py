@@ -184,7 +184,6 @@ def status(found: Hunt) -> str:
 def _written(
     found: Hunt, job: Job, target: tuple[str, ...], options: dict[str, Any]
 ) -> dict[str, Finding]:
-    """Write the findings, and return them by their ids."""
     findings = keep.named(found.findings.values(), job.seed)
     names = ("level", "convention", "far", "solids", "cases", "seconds", "seed", "seeded")
     asked = {"target": list(spelled(target)), **{name: options[name] for name in names}}

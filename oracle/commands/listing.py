@@ -160,7 +160,6 @@ def _print_counts(rows: list[GoldenRow], field: str) -> None:
 
 
 def _print_families(rows: list[GoldenRow]) -> None:
-    """Print each family with its rows per tier and its reason, where the tool knows the family."""
     from raycert.cases.families.catalog import FAMILIES
 
     reasons = {family.name: family.reason for family in FAMILIES}

@@ -26,12 +26,10 @@ from raycert.oracle.commands.options import (
     write_text,
 )
 from raycert.oracle.map.legend import summary, to_csv, to_json
-from raycert.oracle.map.raster import Inputs, Raster
-from raycert.oracle.map.sampling import Map, sample
+from raycert.oracle.map.raster import UNITS, Inputs, Raster
+from raycert.oracle.map.sampling import SHOWS, Map, sample
 
 PICTURES, DATA = (".png", ".svg"), (".json", ".csv")
-SHOWS = ("exact", "answer", "k", "ulps", "disagreement")
-UNITS = ("ulps", "units", "relative")
 CELLS = 96
 
 EPILOG = """\b

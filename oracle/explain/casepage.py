@@ -127,7 +127,6 @@ def _drawn(one: Response, name: str) -> AnswerLine:
 
 
 def _answer(one: Response, name: str, derivation: Derivation) -> Json:
-    """Return an answer as a row of the table: its words, its errors, the levels it holds."""
     graded, known_as = one.grade, clean(one.name, 60) if one.name != one.word else ""
     form: Json = {"label": clean(name, 30), "name": known_as, "reason": clean(one.reason)}
     if graded is None:

@@ -44,7 +44,6 @@ def show_rows(rows: Sequence[GoldenRow], fmt: Format, console: Console, full: bo
 
 
 def show_proofs(statements: Sequence[Statement], console: Console) -> None:
-    """Print what the names mean, and each statement below its title."""
     _put(console, proof_lines(statements, console.width))
 
 
@@ -93,7 +92,6 @@ def _vector(v: Vector, fmt: Format) -> str:
 
 
 def passage_lines(passage: Passage, width: int, full: bool) -> Iterator[Text]:
-    """Yield the lines of a passage; its facts share their columns."""
     facts = [line for line in passage.lines if isinstance(line, Fact)]
     names = max((len(fact.name) for fact in facts), default=0)
     signs = any(fact.sign for fact in facts)

@@ -215,7 +215,6 @@ def _k(k: float) -> str:
 
 
 def row_passages(row: GoldenRow, fmt: Format) -> Iterator[Passage]:
-    """Yield the parts of a row: what it is, each exact endpoint, the lists."""
     yield Passage("Row", tuple(_row_facts(row)))
     for i, span in enumerate(row.intervals, 1):
         touch = f", a touch ({span.touch})" if span.touch else ""

@@ -178,7 +178,6 @@ def dyadic(value: Fraction) -> str:
 
 
 def about(value: Fraction, digits: int = 6) -> str:
-    """Return a fraction to a few digits, whatever its size."""
     if not value:
         return "0"
     return tidy(decimal(fraction(value.numerator, value.denominator), digits))

@@ -152,7 +152,6 @@ class Cluster:
         self._tasks[unit.number] = future, unit, attempt
 
     def finished(self, seconds: float) -> list[Haul]:
-        """Return what has come; what the cluster gave up is submitted again."""
         self._wait(seconds)
         results = []
         for future, unit, attempt in list(self._tasks.values()):

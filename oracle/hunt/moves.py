@@ -456,12 +456,10 @@ def by_vectors(probe: Probe) -> Iterator[Probe | None]:
 def _vectors(probe: Probe) -> Iterator[int]:
     """Yield where each vector of a probe begins among its numbers."""
     start = 0
-    for _, leaf in leaves(probe.solid):
-        for name in FIELDS[type(leaf)]:
-            wide = isinstance(getattr(leaf, name), tuple)
-            if wide:
-                yield start
-            start += 3 if wide else 1
+    for name in (name for _, leaf in leaves(probe.solid) for name in FIELDS[type(leaf)]):
+        if name != "radius":
+            yield start
+        start += 1 if name == "radius" else 3
     yield from (start, start + 3)
 
 

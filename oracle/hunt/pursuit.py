@@ -168,7 +168,6 @@ def _golden(folder: Path, precision: str) -> tuple[Probe, ...]:
 
 
 def drawn(site: Site) -> None:
-    """Search until the cases or the time are used up, or Hypothesis has had enough."""
     from hypothesis import given, seed, target
     from hypothesis.errors import Flaky
 

@@ -40,6 +40,7 @@ LINGER = 2.0
 MOST = 100
 """Findings of a hunt, if nobody says otherwise."""
 POLL = 0.25
+Probes = tuple[Probe, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +66,7 @@ class Finding:
     outcome: Outcome
     first: Probe
     k: float
-    before: tuple[Probe, ...] = ()
+    before: Probes = ()
     repeats: bool = True
     after: float = 0.0
 
@@ -113,16 +114,16 @@ def hunt(job: Job, budget: Budget, executor: Executor, on_progress: Progress | N
 
 
 class _Course:
-    """A hunt under way."""
+    """A hunt under way; a target is started here too, to confirm failures and to shrink them."""
 
     def __init__(self, job: Job, budget: Budget, executor: Executor, on_progress: Progress) -> None:
-        self.ledger = Ledger()
         self._budget, self._executor, self._on_progress = budget, executor, on_progress
-        self._began = time.monotonic()
-        self._clock = Clock.of(budget.seconds)
-        self._out = 0
-        self._catch = Catch(job, self._clock, self._began)
-        self.found = self._catch.found
+        self._began, self._clock = time.monotonic(), Clock.of(budget.seconds)
+        self._out, self._ledger = 0, Ledger()
+        self._session = Session(job.target, job.limits)
+        self._looker = Looker(self._session.hello, job.criterion, job.solids)
+        self._counts: Counter[tuple[str, str, str]] = Counter()
+        self.found = Hunt(self._looker)
 
     def run(self) -> None:
         units, end = self._units(), self._clock.end
@@ -134,13 +135,13 @@ class _Course:
                 self._out += 1
                 waiting = next(units, None)
             for result in self._executor.finished(POLL):
-                self._out -= self.ledger.add(result)
+                self._out -= self._ledger.add(result)
             self._tell()
-            if self._take(self.ledger.in_order()) or time.monotonic() > end + LINGER:
+            if self._take(self._ledger.in_order()) or time.monotonic() > end + LINGER:
                 break
             if time.monotonic() > end:
                 waiting = None
-        self._take(self.ledger.rest())
+        self._take(self._ledger.rest())
 
     def _units(self) -> Iterator[Unit]:
         cases, size = self._budget.cases, self._budget.unit
@@ -151,9 +152,17 @@ class _Course:
                 yield Unit(number, min(size, cases - start))
 
     def _take(self, results: Iterator[Haul]) -> bool:
-        """Take up results in turn; return whether enough was found."""
+        """Take up the failures of units in turn; return whether enough causes were found.
+
+        Of each coarse cause only the first few are taken.
+        """
         for result in results:
-            for _ in self._catch.take(result):
+            if result.worst.k > self.found.worst.k:
+                self.found.worst = result.worst
+            for suspect in result.failures:
+                self._counts[coarse(suspect)] += 1
+                if self._counts[coarse(suspect)] <= EACH:
+                    self._add(self._confirmed(suspect))
                 self._tell()
                 if len(self.found.findings) >= self._budget.most:
                     self.found.ended = "most"
@@ -161,35 +170,13 @@ class _Course:
         return False
 
     def _tell(self) -> None:
-        self.found.tried = self.ledger.tried
+        self.found.tried = self._ledger.tried
         self.found.seconds = time.monotonic() - self._began
         self._on_progress(self.found)
 
     def close(self) -> None:
         self._tell()
-        self._catch.session.close()
-
-
-class Catch:
-    """Makes findings of failures."""
-
-    def __init__(self, job: Job, clock: Clock, began: float) -> None:
-        """Start the target here, where failures are confirmed and shrunk. Raises `Unusable`."""
-        self.session = Session(job.target, job.limits)
-        self.looker = Looker(self.session.hello, job.criterion, job.solids)
-        self.found = Hunt(self.looker)
-        self._clock, self._began = clock, began
-        self._counts: Counter[tuple[str, str, str]] = Counter()
-
-    def take(self, result: Haul) -> Iterator[None]:
-        """Take up the failures of a unit, one a step: of each coarse cause only the first few."""
-        if result.worst.k > self.found.worst.k:
-            self.found.worst = result.worst
-        for suspect in result.failures:
-            self._counts[coarse(suspect)] += 1
-            if self._counts[coarse(suspect)] <= EACH:
-                self._add(self._confirmed(suspect))
-            yield
+        self._session.close()
 
     def _add(self, finding: Finding | None) -> None:
         """Keep a finding, unless one as simple has the same cause."""
@@ -203,8 +190,8 @@ class Catch:
 
     def _afresh(self, probe: Probe, before: Sequence[Probe]) -> tuple[Outcome, Flaw | None]:
         """Return what a new process answers to a probe after some others, and its flaw."""
-        *_, outcome = self.session.fresh([*before, probe])
-        return outcome, self.looker(probe, outcome).flaw
+        *_, outcome = self._session.fresh([*before, probe])
+        return outcome, self._looker(probe, outcome).flaw
 
     def _confirmed(self, suspect: Suspect) -> Finding | None:
         """Return the finding that a failure makes: alone, after some others, or never again."""
@@ -216,18 +203,18 @@ class Catch:
                 return self._shrunk(suspect, flaw, before)
         return self._unrepeated(suspect, outcome)
 
-    def _shrunk(self, suspect: Suspect, flaw: Flaw, before: tuple[Probe, ...]) -> Finding | None:
+    def _shrunk(self, suspect: Suspect, flaw: Flaw, before: Probes) -> Finding | None:
         def fails(probes: Sequence[Probe]) -> list[bool]:
             if time.monotonic() > self._clock.end + LINGER:
                 raise TimeUp
             asked = [s for probe in probes for s in (*before, probe)]
-            outcomes = self.session.ask(asked)[len(before) :: len(before) + 1]
+            outcomes = self._session.ask(asked)[len(before) :: len(before) + 1]
             return [self._same(s, o, flaw) for s, o in zip(probes, outcomes, strict=True)]
 
         def is_known(probe: Probe) -> bool:
             return self._is_known(symptom(probe, flaw), probe)
 
-        shrinker = Shrinker(suspect.probe, fails, self.looker.hello.format)
+        shrinker = Shrinker(suspect.probe, fails, self._looker.hello.format)
         try:
             shrinker.run(is_known)
         except (TimeUp, KeyboardInterrupt):
@@ -237,7 +224,7 @@ class Catch:
             return None
         return self._finished(shrinker.best, suspect, before)
 
-    def _finished(self, best: Probe, suspect: Suspect, before: tuple[Probe, ...]) -> Finding:
+    def _finished(self, best: Probe, suspect: Suspect, before: Probes) -> Finding:
         for probe in (best, suspect.probe):
             outcome, again = self._afresh(probe, before)
             if again:
@@ -250,20 +237,15 @@ class Catch:
 
     def _same(self, probe: Probe, outcome: Outcome, flaw: Flaw) -> bool:
         """Whether a case fails in the same way, on the same level or a weaker one."""
-        seen = self.looker(probe, outcome).flaw if self.looker.wants(probe) else None
+        seen = self._looker(probe, outcome).flaw if self._looker.wants(probe) else None
         levels = {flaw.level, "sound"} if flaw.level == "stable" else {flaw.level}
         return seen is not None and seen.kind == flaw.kind and seen.level in levels
 
     def _finding(
-        self,
-        suspect: Suspect,
-        probe: Probe,
-        flaw: Flaw,
-        outcome: Outcome,
-        before: tuple[Probe, ...] = (),
+        self, suspect: Suspect, probe: Probe, flaw: Flaw, outcome: Outcome, before: Probes = ()
     ) -> Finding:
         after = time.monotonic() - self._began
-        k = self.looker.true_k(probe, outcome)
+        k = self._looker.true_k(probe, outcome)
         return Finding(
             symptom(probe, flaw), probe, flaw, outcome, suspect.probe, k, before, after=after
         )

@@ -236,7 +236,6 @@ def _answer(cell: Cell) -> Any:
 
 
 def to_csv(found: Map) -> str:
-    """Return the map as CSV: places, moved inputs, the exact form, the class or the number."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     paths = found.raster.paths

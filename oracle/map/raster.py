@@ -137,7 +137,15 @@ class Raster:
         """
         if span <= 0:
             raise Refused("span", "is not positive")
-        _check(inputs, axes, unit, span)
+        if axes[0] == axes[1]:
+            raise Refused("y", "is the same direction as x")
+        if unit == "ulps" and span.denominator != 1:
+            raise Refused("span", f"is not a whole number of ulps: {float(span)!r}")
+        for path, weight in (*axes[0].terms, *axes[1].terms):
+            if unit == "ulps" and weight.denominator != 1:
+                raise Refused(path, "has a weight that is not whole; ulps are counted")
+            if unit == "relative" and not inputs[path]:
+                raise Refused(path, "is 0 and has no relative change; choose ulps or units")
         half = max(most // 2, 1)
         if unit == "ulps":
             step = max(-(-int(span) // half), 1)
@@ -166,19 +174,6 @@ class Raster:
 
     def probe(self, at: At) -> Probe:
         return self.inputs.probe(self.values(at))
-
-
-def _check(inputs: Inputs, axes: Axes, unit: Unit, span: Fraction) -> None:
-    """Refuse what moves nothing, or not by whole steps."""
-    if axes[0] == axes[1]:
-        raise Refused("y", "is the same direction as x")
-    if unit == "ulps" and span.denominator != 1:
-        raise Refused("span", f"is not a whole number of ulps: {float(span)!r}")
-    for path, weight in (*axes[0].terms, *axes[1].terms):
-        if unit == "ulps" and weight.denominator != 1:
-            raise Refused(path, "has a weight that is not whole; ulps are counted")
-        if unit == "relative" and not inputs[path]:
-            raise Refused(path, "is 0 and has no relative change; choose ulps or units")
 
 
 def moved(x: float, by: Fraction, unit: Unit, fmt: Format) -> float:

@@ -73,7 +73,6 @@ class Map:
 
     @property
     def whole(self) -> bool:
-        """Whether every cell is there."""
         return len(self.cells) == len(self.raster.places)
 
 
