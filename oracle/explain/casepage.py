@@ -209,11 +209,8 @@ def drawable(pairs: Numbers | None) -> Pairs | None:
     """Return a list to draw; None where it has a NaN, or is none."""
     if pairs is None or any(isnan(x) for pair in pairs for x in pair):
         return None
-    return tuple((_number(a), _number(b)) for a, b in pairs)
-
-
-def _number(x: float) -> Fraction | float:
-    return Fraction(x) if isfinite(x) else x
+    exact = [[Fraction(x) if isfinite(x) else x for x in pair] for pair in pairs]
+    return tuple((a, b) for a, b in exact)
 
 
 def lists(row: GoldenRow, accept: Accept) -> CaseLists:
@@ -288,6 +285,7 @@ def closeups(
     """
     found: Drawn = []
     last: Fraction | None = None
+    shown = (*picture.known(all_lists), *(one.lane for one in said))
     for i, span in enumerate(row.intervals):
         for side, end in enumerate((span.enter, span.leave)):
             t = _end(end)
@@ -298,25 +296,18 @@ def closeups(
                 continue
             last = t
             offs = [_off(one, end, (i, side), all_lists, fmt) for one in said]
-            found.append(_close(end, ("enter", "leave")[side], all_lists, (said, offs), fmt))
+            found.append(_close(end, ("enter", "leave")[side], shown, offs, fmt))
     return found
 
 
 def _close(
-    end: End,
-    name: str,
-    all_lists: CaseLists,
-    answers: tuple[Sequence[AnswerLine], Sequence[Fraction | None]],
-    fmt: Format,
+    end: End, name: str, shown: Sequence[Lane], offs: Sequence[Fraction | None], fmt: Format
 ) -> tuple[str, str]:
-    said, offs = answers
     origin = Fraction(end.nearest)
     unit = picture.ulp(origin, fmt)
     reach = max([NARROW, *(abs(off) for off in offs if off is not None and abs(off) <= WIDE)])
     axis = Ruler(origin, reach * unit * Fraction(26, 10) / Fraction(PLOT))
-    shown = (*picture.known(all_lists), *(one.lane for one in said))
-    top = 4.0
-    foot = top + len(shown) * ROW
+    top, foot = 4.0, 4.0 + len(shown) * ROW
     parts = [*_numbers(axis, origin, unit, foot), *picture.lanes(shown, axis, top)]
     parts += picture.ticks(axis, origin, unit, foot)
     parts.append(picture.label(0, foot + 16, "ulps", "name"))
