@@ -258,6 +258,18 @@ def incomplete_lists(every: Iterable[Source]) -> list[str]:
     return wrong
 
 
+def imported_tests(every: Iterable[Source]) -> list[str]:
+    """Imports of a test module: what two of them need lies in `shared`."""
+    return [
+        f"{source.path}:{line}: imports {name}"
+        for source in every
+        for line, name in imports(source.tree)
+        if any(
+            part in ("tests", "conftest") or part.startswith("test_") for part in name.split(".")
+        )
+    ]
+
+
 RULES: tuple[Rule, ...] = (
     wrong_directions,
     upward_chapters,
@@ -275,6 +287,13 @@ RULES: tuple[Rule, ...] = (
 @pytest.mark.parametrize("rule", RULES, ids=lambda rule: rule.__name__)
 def test_the_modules_keep_the_rule(rule: Rule) -> None:
     assert rule(SOURCES) == []
+
+
+def test_no_test_module_imports_another() -> None:
+    here = Path(__file__).parent
+    every = [Source(f"tests/{p.relative_to(here)}", p.read_text()) for p in here.rglob("*.py")]
+    assert len(every) > 100
+    assert imported_tests(every) == []
 
 
 def test_all_packages_are_seen() -> None:
@@ -345,6 +364,9 @@ PLANTED: list[tuple[Rule, dict[str, str]]] = [
     (shared_class_names, {"oracle/map/x.py": "class A: ...", "oracle/zoo/y.py": "class A: ..."}),
     (shared_stems, {"oracle/map/x.py": "", "oracle/zoo/x.py": ""}),
     (incomplete_lists, {"oracle/map/__init__.py": '"""The map."""', "oracle/map/x.py": ""}),
+    (imported_tests, {"tests/map/test_x.py": "from tests.map.test_y import run"}),
+    (imported_tests, {"tests/map/test_x.py": "def f():\n    import test_y"}),
+    (imported_tests, {"tests/map/test_x.py": "from . import test_y"}),
 ]  # fmt: skip
 
 

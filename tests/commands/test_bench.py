@@ -96,7 +96,7 @@ def test_whole_commands_are_timed(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_sections_come_in_one_order_and_are_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(files, "QUICK", Effort(4, 2, 1, 0.1, 500, (6, 4), (8, 6), 2, 4))
+    monkeypatch.setattr(files, "QUICK", Effort(4, 0, 1, 0.1, 500, (6, 4), (8, 6), 2, 4))
     out = tmp_path / "new"
     words = ("--section", "scenes", "--section", "scalar", "--quick", "--seed", "3")
     found = run(*words, "--out", str(out))

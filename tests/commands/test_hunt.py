@@ -9,16 +9,10 @@ from click.testing import CliRunner
 from raycert.oracle.commands.certify import certify
 from raycert.oracle.commands.hunt import hunt
 from shared.hunted_targets import spec
-from shared.places import TESTS
 
 
 def run(*words: str):
     return CliRunner().invoke(hunt, [*words])
-
-
-@pytest.fixture(autouse=True)
-def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONPATH", str(TESTS))
 
 
 @pytest.fixture

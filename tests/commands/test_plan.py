@@ -16,7 +16,7 @@ def run(*words: str) -> Result:
 
 def test_the_table_says_why_and_why_not(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "200")
-    result = run("pipe", "--size", "32x24", "--repeats", "1")
+    result = run("pipe", "--size", "16x12", "--repeats", "1")
     assert result.exit_code == 0, result.output
     assert "every ray starts at the eye" in result.output
     assert "not here: perspective: each ray has its own direction" in result.output
@@ -24,9 +24,9 @@ def test_the_table_says_why_and_why_not(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 def test_as_data() -> None:
-    result = run("forest", "--size", "32x24", "--repeats", "1", "--json", "--show", "count")
+    result = run("forest", "--size", "16x12", "--repeats", "1", "--json", "--show", "count")
     form = json.loads(result.output)
-    assert form["size"] == [32, 24]
+    assert form["size"] == [16, 12]
     assert form["planned"] > 0 < form["plain"]
     items = {item["name"]: item for item in form["items"]}
     assert items["direction"]["applies"]

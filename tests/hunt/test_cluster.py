@@ -22,7 +22,6 @@ from raycert.oracle.hunt.pursuit import work
 from raycert.oracle.hunt.search import Budget, hunt
 from raycert.oracle.hunt.unit import Haul, Job, Ledger, Unit, Worst
 from shared.hunted_targets import spec
-from shared.places import TESTS
 
 pytest.importorskip("distributed", reason='needs pip install "raycert[cluster]"')
 pytestmark = pytest.mark.filterwarnings("default")  # those of Dask are its own
@@ -56,7 +55,6 @@ def started(kind: str, *words: str) -> tuple[subprocess.Popen[str], str]:
         stdout=subprocess.PIPE,
         stderr=subprocess.DEVNULL,
         text=True,
-        env=os.environ | {"PYTHONPATH": str(TESTS)},
     )
     assert process.stdout
     return process, process.stdout.readline().strip()
