@@ -189,7 +189,7 @@ class Blocks:
 
 
 def tally(rungs: Codes) -> Counts:
-    return np.bincount(rungs, minlength=len(RUNGS))
+    return np.array([np.count_nonzero(rungs == i) for i in range(len(RUNGS))])
 
 
 def scalar(solid: Solid, fmt: Format) -> Callable[[list[float], list[float]], Numbers]:
