@@ -214,6 +214,29 @@ def test_the_manifest_is_what_its_schema_describes() -> None:
     assert not check.is_valid({**form, "files": {"binary64/x": form["files"]}})
 
 
+def test_a_link_stays_a_link_and_a_mode_stays(tmp_path: Path) -> None:
+    target, link = tmp_path / "target", tmp_path / "link"
+    target.write_text("old")
+    target.chmod(0o600)
+    link.symlink_to(target)
+    corpus.write_whole(link, b"new")
+    assert link.is_symlink()
+    assert target.read_text() == "new"
+    corpus.write_whole(target, b"newer")
+    assert (target.read_text(), target.stat().st_mode & 0o777) == ("newer", 0o600)
+
+
+def test_a_pipe_stays_a_pipe(tmp_path: Path) -> None:
+    """A certificate written to /dev/null replaced the device once."""
+    fifo = tmp_path / "fifo"
+    os.mkfifo(fifo)
+    reader = os.open(fifo, os.O_RDONLY | os.O_NONBLOCK)
+    corpus.write_whole(fifo, b"text")
+    assert os.read(reader, 10) == b"text"
+    os.close(reader)
+    assert fifo.is_fifo()
+
+
 @pytest.mark.parametrize("name", RAYS)
 def test_a_row_without_any_one_of_its_fields_is_not_valid(name: str) -> None:
     whole = fresh(name)

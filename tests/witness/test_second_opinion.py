@@ -154,7 +154,7 @@ SHARED = {
     "placement": set(),
     "bodies": set(),
     "manifold": {"intervals", "surd"},
-    "sandwich": {"intervals", "surd", "rounding"},
+    "sandwich": {"intervals", "surd"},
     "algebra": set(),
 }
 """What each module of a witness shares with the oracle: the types of answers, and integer grids."""
