@@ -55,7 +55,7 @@ UNREPEATED = "unrepeated"
 
 @dataclass(frozen=True, slots=True)
 class Criterion:
-    """What is a failure: of a level, of a convention on the lattice if one is asked for.
+    """When an answer fails: below a level or, on the lattice, against a convention.
 
     Cases of the range tier count only with `far`.
     """
