@@ -9,24 +9,27 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 import tempfile
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from raycert.cases.files import BadFile, read_as, read_file
 from raycert.cases.formats import FORMATS, Format
+from raycert.cases.forms import fields_of
 from raycert.cases.model import Refused
-from raycert.cases.row import GoldenRow, read_row, write_row
+from raycert.cases.row import GoldenRow, read_row, row_of, write_row
 
 FORMAT_VERSION = 1
 CORPUS_VERSION = "2026.1"
 GOLDEN = Path(__file__).parent / "golden"
 MANIFEST = "manifest.json"
-
-
-class BadCorpus(ValueError):
-    """A golden directory that cannot be used; the text names the file and line."""
+NAME = re.compile(rf"({'|'.join(FORMATS)})/[a-z0-9]+(-[a-z0-9]+)*\.jsonl")
+VERSION = re.compile(r"[0-9]{4}\.[0-9]+")
+WORDS = {"rows": "has {} rows", "sha256": "SHA-256 differs: it is {}"}
+_LINE = json.JSONEncoder(separators=(",", ":")).encode
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,46 +50,78 @@ class Corpus:
 
 
 def encode_rows(rows: Iterable[GoldenRow], fmt: Format) -> bytes:
-    lines = (json.dumps(write_row(row, fmt), separators=(",", ":")) + "\n" for row in rows)
+    lines = (_LINE(write_row(row, fmt)) + "\n" for row in rows)
     return "".join(lines).encode("ascii")
 
 
 def decode_rows(data: bytes, fmt: Format, name: str) -> Iterator[GoldenRow]:
-    """Yield the rows of a golden file. Raises `BadCorpus` naming the line that is none."""
+    """Yield the rows of a golden file. Raises `BadFile` naming the line that is none.
+
+    A line is a row only as it is written, to the byte: no key twice, no other order, no digit more.
+    """
     for number, line in enumerate(data.splitlines(), 1):
         try:
-            yield read_row(json.loads(line), fmt)
-        except (ValueError, Refused, RecursionError) as error:
-            raise BadCorpus(f"{name}:{number}: {error}") from None
+            form = json.loads(line)
+            row = row_of(form, fmt)
+            if encode_rows((row,), fmt)[:-1] != line:
+                read_row(form, fmt)
+                raise ValueError("is not spelled as a row is written: keys, their order, spaces")
+            yield row
+        except (ValueError, RecursionError) as error:
+            raise BadFile(f"{name}:{number}: {error}") from None
 
 
 def manifest(files: dict[str, bytes]) -> bytes:
     """Return the bytes of the manifest of these files, by relative name."""
-    entries = {
-        name: {"rows": data.count(b"\n"), "sha256": hashlib.sha256(data).hexdigest()}
-        for name, data in sorted(files.items())
-    }
+    entries = {name: _entry(data) for name, data in sorted(files.items())}
     form = {"format": FORMAT_VERSION, "corpus": CORPUS_VERSION, "files": entries}
     return (json.dumps(form, indent=1) + "\n").encode("ascii")
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:
-    """Return the manifest of a golden directory. Raises `BadCorpus` where there is none."""
+    """Return the manifest of a golden directory. Raises `BadFile` where there is none."""
     path = folder / MANIFEST
     try:
-        form = json.loads(path.read_bytes())
-        version, files = form["format"], form["files"]
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise BadCorpus(f"{path}: {error}; write one with: raycert golden write") from None
-    if version != FORMAT_VERSION or not isinstance(files, dict):
-        raise BadCorpus(f"{path}: format {version!r} is not {FORMAT_VERSION}")
-    return dict(form)
+        return read_as(path, read_file(path, regular=True), _manifest)
+    except BadFile as error:
+        raise BadFile(f"{error}; write one with: raycert golden write") from None
+
+
+def _manifest(form: object) -> dict[str, Any]:
+    """Return a form as it is if it is that of a manifest, or refuse it."""
+    fields = fields_of(form, "", ("format", "corpus", "files"))
+    version, corpus, files = (fields[name] for name in ("format", "corpus", "files"))
+    if version is True or version != FORMAT_VERSION:
+        raise Refused("format", f"is not {FORMAT_VERSION}: {version!r:.40}")
+    if not isinstance(corpus, str) or not VERSION.fullmatch(corpus):
+        raise Refused("corpus", f"is not a year and a number such as 2026.1: {corpus!r:.40}")
+    if not isinstance(files, dict):
+        raise Refused("files", "is not an object")
+    for name, entry in files.items():
+        if not NAME.fullmatch(name):
+            raise Refused(f"files.{name}", "is not PRECISION/FAMILY.jsonl")
+        fields_of(entry, f"files.{name}", ("rows", "sha256"))
+    return dict(fields)
+
+
+def golden_file(folder: Path, name: str, entry: dict[str, Any]) -> bytes:
+    """Return a file of a golden directory. Raises `BadFile` if it is not what its entry says."""
+    data = read_file(folder / name, regular=True)
+    for what, found in _entry(data).items():
+        if entry[what] != found or isinstance(entry[what], bool):
+            said = WORDS[what].format(found)
+            raise BadFile(f"{folder / name}: {said}, the manifest says {entry[what]!r:.80}")
+    return data
+
+
+def _entry(data: bytes) -> dict[str, Any]:
+    return {"rows": data.count(b"\n"), "sha256": hashlib.sha256(data).hexdigest()}
 
 
 def read_corpus(precision: str = "binary64", folder: Path = GOLDEN) -> Corpus:
     """Return the rows of one precision, each file checked against the manifest.
 
-    Raises `BadCorpus` for a file that is missing, altered, or holds what is no row.
+    Raises `BadFile` for a file that is missing, altered, or holds what is no row of its family.
     """
     form = read_manifest(folder)
     rows: list[GoldenRow] = []
@@ -94,25 +129,16 @@ def read_corpus(precision: str = "binary64", folder: Path = GOLDEN) -> Corpus:
     for name, entry in form["files"].items():
         if not name.startswith(f"{precision}/"):
             continue
-        data = _checked(folder / name, entry)
+        data = golden_file(folder, name, entry)
         for row in decode_rows(data, FORMATS[precision], name):
             if row.id in seen:
-                raise BadCorpus(f"{name}: the id {row.id} occurs twice")
+                raise BadFile(f"{name}: the id {row.id} occurs twice")
+            if name != f"{precision}/{row.family}.jsonl":
+                raise BadFile(f"{name}: the id {row.id} is of another family")
             seen.add(row.id)
             rows.append(row)
-    digest = hashlib.sha256((folder / MANIFEST).read_bytes()).hexdigest()
-    return Corpus(tuple(rows), precision, str(form.get("corpus", "")), digest)
-
-
-def _checked(path: Path, entry: object) -> bytes:
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        raise BadCorpus(f"{path}: {error.strerror}") from None
-    digest = hashlib.sha256(data).hexdigest()
-    if not isinstance(entry, dict) or entry.get("sha256") != digest:
-        raise BadCorpus(f"{path}: SHA-256 differs from the manifest's: {digest}")
-    return data
+    digest = hashlib.sha256(read_file(folder / MANIFEST, regular=True)).hexdigest()
+    return Corpus(tuple(rows), precision, form["corpus"], digest)
 
 
 def write_whole(path: Path, data: bytes) -> None:

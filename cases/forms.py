@@ -92,7 +92,7 @@ def type_in(form: object, path: str, types: Iterable[str]) -> str:
         raise Refused(path, f"is not an object: {form!r:.40}")
     kind = form.get("type")
     if not isinstance(kind, str) or kind not in types:
-        raise Refused(f"{path}.type", f"is not one of {', '.join(types)}: {kind!r:.40}")
+        raise Refused(f"{path}.type", _none_of(kind, types))
     return kind
 
 
@@ -113,6 +113,11 @@ def fields_of(
     return form
 
 
+def _none_of(value: object, words: Iterable[object]) -> str:
+    known = ", ".join("null" if word is None else str(word) for word in words)
+    return f"is not one of {known}: {value!r:.40}"
+
+
 class Fields:
     """The fields of a JSON object, each refused if it is missing or of another type."""
 
@@ -128,7 +133,23 @@ class Fields:
         value = self.form[name]
         if not isinstance(value, kind) or isinstance(value, bool):
             raise Refused(f"{self.path}.{name}", f"is not a {getattr(kind, '__name__', kind)}")
+        if isinstance(value, str) and not value.isprintable():  # NUL, half a surrogate pair, ...
+            raise Refused(f"{self.path}.{name}", f"has characters that do not print: {value!r:.40}")
         return value
+
+    def one_of(self, name: str, words: tuple[T, ...]) -> T:
+        """Return a field that is one of some words, or null if that is among them."""
+        value: T = self(name, str | None)
+        if value not in words:
+            raise Refused(f"{self.path}.{name}", _none_of(value, words))
+        return value
+
+    def some_of(self, name: str, words: Iterable[str]) -> tuple[str, ...]:
+        """Return a list of some of these words."""
+        values = self.many(name, str)
+        if wrong := [value for value in values if value not in words]:
+            raise Refused(f"{self.path}.{name}", _none_of(wrong[0], words))
+        return values
 
     def inside(self, name: str) -> Self:
         """Return the fields of a field that is an object."""
@@ -139,6 +160,8 @@ class Fields:
         items = self(name, list)
         if not all(isinstance(x, kind) and not isinstance(x, bool) for x in items):
             raise Refused(f"{self.path}.{name}", f"is not a list of {kind.__name__}")
+        if kind is str and not "".join(items).isprintable():
+            raise Refused(f"{self.path}.{name}", "has characters that do not print")
         return tuple(items)
 
     def each(self, name: str) -> Iterator[Self]:

@@ -45,7 +45,8 @@ class Refused(ValueError):
 
 
 def _shown(path: str) -> str:
-    """Return a path as a person can read it: of a very deep one, both ends."""
+    """Return a path as a person can read it: of a very deep one, both ends; escapes spelled."""
+    path = path if path.isprintable() else repr(path)[1:-1]
     return path if len(path) <= 200 else f"{path[:90]} ... {path[-90:]}"
 
 

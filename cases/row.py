@@ -6,6 +6,7 @@ with `Refused`, naming the field, whatever writing would not give back.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from math import isnan
 from typing import Any
@@ -14,9 +15,14 @@ from raycert.cases.accept import Accept, Numbers
 from raycert.cases.case import TIERS, Tier
 from raycert.cases.formats import Format, parse, spell
 from raycert.cases.forms import Fields, Json, read_ray, read_solid, write_ray, write_solid
+from raycert.cases.levels import LEVELS
 from raycert.cases.model import Ray, Refused, Solid
+from raycert.cases.protocol import TOUCHES
 
 ROUNDED = ("nearest", "down", "up")
+ID = re.compile("[a-z0-9]+(-[a-z0-9]+)*/[a-z0-9]+(-[a-z0-9]+)*")
+ENDS = ("crossing", "tangent", "rim", "start", "end")
+"""What an endpoint may be."""
 ACCEPTED = ("sound", "stable")
 """The levels that a row holds lists of numbers for."""
 
@@ -113,23 +119,28 @@ def real(number: float) -> str:
 
 def read_row(form: object, fmt: Format) -> GoldenRow:
     """Return the row that a JSON object describes, or refuse it."""
+    row = row_of(form, fmt)
+    assert isinstance(form, dict)
+    for name, value in (form | write_row(row, fmt)).items():
+        if form[name] != value or name not in GoldenRow.__slots__:
+            raise Refused(f"row.{name}", "is not as a row is written")
+    return row
+
+
+def row_of(form: object, fmt: Format) -> GoldenRow:
+    """Return what is read of a row, or refuse it; nobody has looked at what is not read."""
     get = _Record(form, "row")
-    tier = get("tier", str)
-    if tier not in TIERS:
-        raise Refused("row.tier", f"is not one of {', '.join(TIERS)}: {tier!r:.40}")
-    accept = get.inside("accept")
-    row = GoldenRow(
-        id=get("id", str), why=get("why", str), flags=get.many("flags", str), tier=tier,
+    id, accept = get("id", str), get.inside("accept")
+    if not ID.fullmatch(id):
+        raise Refused("row.id", f"is not FAMILY/SLUG in lower case: {id!r:.40}")
+    return GoldenRow(
+        id=id, why=get("why", str), flags=get.many("flags", str), tier=get.one_of("tier", TIERS),
         source=get("source", str), solid=read_solid(get("solid", dict), "solid", "hex", fmt),
         ray=read_ray(get("ray", dict), "ray", "hex", fmt), rows=get.many("rows", str),
-        condition=get("condition", int | None), decisive=get.many("decisive", str),
+        condition=get("condition", int | None), decisive=get.some_of("decisive", LEVELS),
         intervals=tuple(map(_read_span, get.each("intervals"))), expected=get.numbers("expected"),
         accept={level: _read_accept(accept.inside(level)) for level in ACCEPTED},
     )  # fmt: skip
-    for name, value in (get.form | write_row(row, fmt)).items():
-        if get.form[name] != value or name not in GoldenRow.__slots__:
-            raise Refused(f"row.{name}", "is not as a row is written")
-    return row
 
 
 class _Record(Fields):
@@ -155,7 +166,7 @@ class _Record(Fields):
 
 def _read_span(get: _Record) -> Span:
     enter, leave = (_read_end(get.inside(name)) for name in ("enter", "leave"))
-    return Span(enter, leave, get("touch", str | None))
+    return Span(enter, leave, get.one_of("touch", (None, *TOUCHES)))
 
 
 def _read_end(get: _Record) -> End:
@@ -164,15 +175,17 @@ def _read_end(get: _Record) -> End:
         if "polynomial" in get.form:
             polynomial = tuple(map(int, get.many("polynomial", str)))
             root = get("root", int)
-            if root not in (0, 1):
-                raise Refused(f"{get.path}.root", f"is not 0 or 1: {root}")
+            if root not in (0, 1) or len(polynomial) != 3 or polynomial[0] < 1:
+                raise Refused(get.path, "is not root 0 or 1 of a polynomial of degree 2")
         elif "fraction" in get.form:
             top, bottom = get("fraction", str).split("/")
             fraction = (int(top), int(bottom))
+            if fraction[1] < 1:
+                raise Refused(f"{get.path}.fraction", f"has no positive denominator: {bottom:.40}")
     except ValueError as error:
         raise error if isinstance(error, Refused) else Refused(get.path, str(error)) from None
     nearest, down, up = (get.number(name, get(name, str)) for name in ROUNDED)
-    written = get("digits", str), get.many("faces", str), get("kind", str)
+    written = get("digits", str), get.many("faces", str), get.one_of("kind", ENDS)
     return End(polynomial, root, fraction, nearest, down, up, *written)
 
 

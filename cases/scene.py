@@ -20,7 +20,6 @@ with s = tan(fov / 2) or height / 2, in binary64, from left to right, as `pixel_
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -28,6 +27,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Literal
 
+from raycert.cases.files import read_as, read_file
 from raycert.cases.forms import Json, fields_of, read_solid, type_in, write_solid
 from raycert.cases.model import Ray, Refused, Solid, Union, Vector, real, vector
 from raycert.cases.vectors import cross, minus
@@ -109,8 +109,8 @@ def read_scene(form: object) -> Scene:
     """Return the scene that a JSON object describes, or refuse it."""
     fields = fields_of(form, "", ("solids", "camera", "size"), ("about",))
     about = fields.get("about", "")
-    if not isinstance(about, str):
-        raise Refused("about", f"is not a text: {about!r:.40}")
+    if not isinstance(about, str) or not about.isprintable():
+        raise Refused("about", f"is not a line of text: {about!r:.40}")
     scene = Scene(
         _solids(fields["solids"]), _camera(fields["camera"]), read_size(fields["size"]), about
     )
@@ -154,16 +154,11 @@ def shipped() -> tuple[str, ...]:
 def load(name: str) -> Scene:
     """Return the scene of that name, or in the file of that path.
 
-    Raises `Refused` for what is no scene, and OSError for a file that cannot be read.
+    Raises `BadFile` for what is no scene or cannot be read.
     """
-    source = SHIPPED / f"{name}.json" if name in shipped() else Path(name)
-    try:
-        form = json.loads(source.read_text(encoding="utf-8"))
-    except ValueError as error:
-        raise Refused("", f"is not JSON: {error}") from None
-    except RecursionError:
-        raise Refused("", "is not JSON that can be read: nested too deep") from None
-    return read_scene(form)
+    if name in shipped():
+        return read_as(name, (SHIPPED / f"{name}.json").read_bytes(), read_scene)
+    return read_as(name, read_file(Path(name)), read_scene)
 
 
 def _check_rays(scene: Scene) -> None:
@@ -192,7 +187,7 @@ def _solids(form: object) -> tuple[tuple[str, Solid], ...]:
     if not named:
         raise Refused("solids", "is empty")
     for i, (name, _, _) in enumerate(named):
-        if not isinstance(name, str) or not name:
+        if not isinstance(name, str) or not name or not name.isprintable():
             raise Refused(f"solids[{i}].name", f"is not a name: {name!r:.40}")
         if name in [other for other, _, _ in named[:i]]:
             raise Refused(f"solids[{i}].name", f"is the name of an earlier solid: {name!r:.40}")

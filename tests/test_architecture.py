@@ -34,7 +34,7 @@ MAY_IMPORT = {
 }
 HEAVY = {
     "numpy", "numba", "sympy", "trimesh", "manifold3d", "scipy", "matplotlib", "mpmath", "flint",
-    "PIL", "jinja2", "junitparser", "pytest", "dask", "distributed", "hypothesis",
+    "PIL", "jinja2", "junitparser", "fastjsonschema", "pytest", "dask", "distributed", "hypothesis",
 }  # fmt: skip
 MAY_LOAD = (
     "oracle/witness/",

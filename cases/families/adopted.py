@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from raycert.cases.case import TIERS, Case, Family
+from raycert.cases.files import BadFile, read_as, read_file
 from raycert.cases.formats import FORMATS, Format
 from raycert.cases.forms import Fields, Json, read_ray, read_solid, write_ray, write_solid
 from raycert.cases.model import Refused
@@ -21,10 +22,6 @@ from raycert.cases.model import Refused
 FOLDER = Path(__file__).parents[1] / "adopted"
 REASON = "Cases that implementations were found to answer wrong, kept as they were found."
 FIELDS = {"slug", "why", "flags", "tier", "source", "precisions", "solid", "ray"}
-
-
-class BadAdopted(ValueError):
-    """A file of adopted cases that cannot be used; the text names the file and the line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,16 +63,14 @@ def slug_of(entry: Entry) -> str:
 
 
 def read(path: Path) -> tuple[Entry, ...]:
-    """Return the entries of a file, none if there is no such file. Raises `BadAdopted`."""
+    """Return the entries of a file, none if there is no such file. Raises `BadFile`."""
     entries: list[Entry] = []
     seen: set[str] = set()
-    for number, line in enumerate(path.read_bytes().splitlines() if path.exists() else (), 1):
-        try:
-            entry = read_entry(json.loads(line))
-        except (ValueError, Refused, RecursionError) as error:
-            raise BadAdopted(f"{path}:{number}: {error}") from None
+    data = read_file(path, regular=True) if path.exists() else b""
+    for number, line in enumerate(data.splitlines(), 1):
+        entry = read_as(f"{path}:{number}", line, read_entry)
         if slug_of(entry) in seen:
-            raise BadAdopted(f"{path}:{number}: the slug {slug_of(entry)} occurs twice")
+            raise BadFile(f"{path}:{number}: the slug {slug_of(entry)} occurs twice")
         seen.add(slug_of(entry))
         entries.append(entry)
     return tuple(entries)
@@ -92,14 +87,9 @@ def read_entry(form: object) -> Entry:
         return Retired(_text(get, "slug"), _text(get, "retired"))
     if set(get.form) != FIELDS:
         raise Refused("case", f"has not the fields {', '.join(sorted(FIELDS))}")
-    precisions, tier = get.many("precisions", str), get("tier", str)
-    for name in precisions:
-        if name not in FORMATS:
-            raise Refused("case.precisions", f"is not one of {', '.join(FORMATS)}: {name!r:.40}")
+    precisions, tier = get.some_of("precisions", FORMATS), get.one_of("tier", TIERS)
     if not precisions:
         raise Refused("case.precisions", "is empty")
-    if tier not in TIERS:
-        raise Refused("case.tier", f"is not one of {', '.join(TIERS)}: {tier!r:.40}")
     narrowest = min((FORMATS[name] for name in precisions), key=lambda fmt: fmt.precision)
     solid = read_solid(get.form["solid"], "solid", "hex", narrowest)
     ray = read_ray(get.form["ray"], "ray", "hex", narrowest)

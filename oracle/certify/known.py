@@ -24,6 +24,7 @@ from dataclasses import asdict, dataclass
 from functools import cached_property
 from typing import Any, Literal
 
+from raycert.cases.files import TOO_DEEP, BadFile
 from raycert.cases.levels import LEVELS, Level, upto
 from raycert.cases.model import SOLIDS, type_of
 from raycert.cases.row import GoldenRow
@@ -33,10 +34,6 @@ from raycert.oracle.certify.verdict import Touches, by_solid
 Kind = Literal["id", "family", "convention"]
 KINDS: tuple[Kind, ...] = ("id", "family", "convention")
 FIELDS = (*KINDS, "level", "reason", "link")
-
-
-class BadExpectations(ValueError):
-    """A file that cannot be used; the text names the file, the entry and the field."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,17 +77,21 @@ class Expectations:
 
 
 def read(text: str, file: str = "expectations") -> Expectations:
-    """Return the expectations that a TOML text holds. Raises `BadExpectations`."""
+    """Return the expectations that a TOML text holds. Raises `BadFile`: file, entry and field."""
     try:
         form = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
-        raise BadExpectations(f"{file}: is not TOML: {error or 'nested too deep'}") from None
+    except tomllib.TOMLDecodeError as error:
+        raise BadFile(f"{file}: is not TOML: {error}") from None
+    except RecursionError:
+        raise BadFile(f"{file}: {TOO_DEEP}") from None
+    except ValueError as error:  # an integer of thousands of digits is one to Python
+        raise BadFile(f"{file}: {error}") from None
     for name in form:
         if name != "expect":
-            raise BadExpectations(f"{file}: unknown key {name!r:.40}; only [[expect]] is known")
+            raise BadFile(f"{file}: unknown key {name!r:.40}; only [[expect]] is known")
     listed = form.get("expect", [])
     if not isinstance(listed, list):
-        raise BadExpectations(f"{file}: expect is not a list of tables: write [[expect]]")
+        raise BadFile(f"{file}: expect is not a list of tables: write [[expect]]")
     entries: dict[tuple[Kind, str], Expectation] = {}
     for number, table in enumerate(listed, 1):
         fault = _fault(table)
@@ -102,7 +103,7 @@ def read(text: str, file: str = "expectations") -> Expectations:
                 entries[key] = Expectation(*key, *words)
                 continue
             fault = f"{kind} {table[kind]!r} is entry {[*entries].index(key) + 1} too"
-        raise BadExpectations(f"{file}: entry {number}: {fault}")
+        raise BadFile(f"{file}: entry {number}: {fault}")
     return Expectations(tuple(entries.values()))
 
 
@@ -114,7 +115,7 @@ def _fault(table: Any) -> str | None:
         if name not in FIELDS:
             return f"unknown key {name!r:.40} ({', '.join(FIELDS)})"
         if not isinstance(value, str):
-            return f"{name} is not a string: {value!r:.40}"
+            return f"{name} is not a string"
     named = [kind for kind in KINDS if kind in table]
     if len(named) != 1:
         return f"has to have exactly one of {', '.join(KINDS)}"

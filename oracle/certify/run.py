@@ -150,7 +150,7 @@ class Result:
 def prepare(plan: Plan) -> Prepared:
     """Greet the target and choose the rows.
 
-    Raises `Unusable` (no hello), `BadCorpus`, `NotInCorpus` and `Unsuitable` (no rows).
+    Raises `Unusable` (no hello), `BadFile`, `NotInCorpus` and `Unsuitable` (no rows).
     """
     hello, fresh = greet(plan.target, plan.limits), tuple[GoldenRow, ...]()
     corpus = read_corpus(hello.precision, plan.golden)

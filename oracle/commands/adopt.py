@@ -8,8 +8,7 @@ from typing import Any
 
 import click
 
-from raycert.cases.corpus import BadCorpus
-from raycert.cases.families.adopted import BadAdopted
+from raycert.cases.files import read_file
 from raycert.cases.formats import FORMATS, Format
 from raycert.cases.levels import TIERS
 from raycert.oracle.commands.asking import from_json
@@ -83,7 +82,7 @@ def adopt(file: Path, family: str, slug: str | None, corpus: Path | None, **opti
         kept = keep(folder, family, found, slug)
     except Contradiction as error:
         raise click.ClickException(f"nothing was written: {error}") from None
-    except (Unfit, BadAdopted, BadCorpus) as error:
+    except Unfit as error:
         raise BadInput(str(error)) from None
     _say(checked)
     click.echo(f"adopted as {kept.id} ({', '.join(kept.precisions)})")
@@ -108,17 +107,14 @@ def _found(file: Path, options: dict[str, Any]) -> Candidate:
     elif id is not None:
         raise BadInput(f"--id: {file} is one case, and no golden file")
     else:
-        found = Candidate(*from_json(file.read_bytes(), fmt, str(file)), fmt, options["why"])
+        found = Candidate(*from_json(read_file(file), fmt, str(file)), fmt, options["why"])
     source = found.source if options["source"] is None else options["source"]
     flags = tuple(dict.fromkeys((*found.flags, *options["flags"])))
     return replace(found, tier=options["tier"], source=source, flags=flags)
 
 
 def _row(file: Path, fmt: Format, id: str | None, why: str) -> Candidate:
-    try:
-        rows = rows_in(file, fmt)
-    except BadCorpus as error:
-        raise BadInput(str(error)) from None
+    rows = rows_in(file, fmt)
     chosen = [(row, own) for row, own in rows if id in (None, row.id)]
     ids = ", ".join(sorted({row.id for row, _ in rows})[:8])
     if not rows:

@@ -13,11 +13,11 @@ from typing import Any, TypeVar
 
 import click
 
+from raycert.cases.files import BadFile, read_all, read_as
 from raycert.cases.formats import FORMATS, Format
 from raycert.cases.forms import Json, read_ray, read_solid
 from raycert.cases.model import FIELDS, TYPE_NAMES, Refused
 from raycert.cases.numbers import Probe
-from raycert.cases.protocol import BadLine, decode
 from raycert.cases.row import GoldenRow
 from raycert.oracle.commands.options import BadInput, find, golden_option, precision_option, read
 from raycert.oracle.exact.surd import enclose, fraction
@@ -69,7 +69,7 @@ def chosen(options: dict[str, Any], rounded: list[Fact]) -> Probe | GoldenRow:
     if options["id"]:
         return find(read(options["precision"], options["golden"]), options["id"])
     if options["file"]:
-        return from_json(options["file"].read(), fmt, "--json")
+        return from_json(read_all("--json", options["file"]), fmt, "--json")
     return _from_words(options, fmt, rounded)
 
 
@@ -78,19 +78,22 @@ def from_json(data: bytes, fmt: Format, option: str) -> Probe:
 
     Ends the command with exit status 2 where it is none; `option` names it in the message.
     """
-    try:
-        form = decode(data)
+
+    def read(form: object) -> Probe:
+        if not isinstance(form, dict):
+            raise Refused("", "is not a JSON object")
         for name in ("solid", "ray"):
             if name not in form:
                 raise Refused(name, 'is missing; the form is {"solid": {...}, "ray": {...}}')
         spelling = _spelling(form["ray"])
         ray = read_ray(form["ray"], "ray", spelling, fmt)
         return Probe(read_solid(form["solid"], "solid", spelling, fmt), ray)
-    except BadLine as error:
-        raise BadInput(f"{option} {error}") from None
-    except Refused as refusal:
+
+    try:
+        return read_as(option, data, read)
+    except BadFile as error:
         advice = "" if fmt.name == "binary64" else f" (for --precision {fmt.name})"
-        raise BadInput(f"{refusal}{advice}") from None
+        raise BadInput(f"{error}{advice}") from None
 
 
 def _spelling(ray: object) -> Any:

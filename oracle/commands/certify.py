@@ -165,17 +165,14 @@ def _plan(target: tuple[str, ...], options: dict[str, Any]) -> Plan:
 
 
 def _expectations(path: Path | None) -> Expectations | None:
-    from raycert.oracle.certify.known import BadExpectations, read
+    from raycert.cases.files import read_text
+    from raycert.oracle.certify.known import read
 
-    try:
-        return read(path.read_text("utf-8"), str(path)) if path else None
-    except (BadExpectations, UnicodeDecodeError) as error:
-        raise click.BadParameter(str(error), param_hint="--expect") from None
+    return read(read_text(path), str(path)) if path else None
 
 
 def _run(plan: Plan) -> Result:
     """Certify; what keeps the target from being tested ends the program."""
-    from raycert.cases.corpus import BadCorpus
     from raycert.oracle.certify.run import NotInCorpus, Unsuitable, Watch, certify
     from raycert.oracle.client.dialogue import Unusable
 
@@ -188,8 +185,6 @@ def _run(plan: Plan) -> Result:
         stop(str(error))
     except NotInCorpus as error:
         raise click.UsageError(f"{error}; see: raycert list") from None
-    except BadCorpus as error:
-        raise click.UsageError(str(error)) from None
 
 
 def _standing(name: str, target: Target, options: dict[str, Any]) -> dict[str, Any]:
@@ -251,20 +246,12 @@ def report(certificate: Path, **options: str | None) -> None:
     CERTIFICATE is the JSON file that certify wrote. Without an option the report for a terminal is
     printed. A FILE of - is standard output.
     """
+    from raycert.cases.files import read_as, read_file
+    from raycert.oracle.reports.reading import check
+
     reports = _wanted(options)
-    form = _read(certificate)
+    form = read_as(certificate, read_file(certificate), check)
     if reports:
         write_reports(form, reports)
     else:
         _print(form, None)
-
-
-def _read(path: Path) -> dict[str, Any]:
-    from raycert.oracle.reports.reading import BadCertificate, check
-
-    try:
-        return check(json.loads(path.read_bytes()))
-    except BadCertificate as error:
-        raise click.UsageError(f"{path}: {error}") from None
-    except (ValueError, RecursionError) as error:
-        raise click.UsageError(f"{path} is not JSON: {error}") from None

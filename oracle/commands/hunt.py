@@ -12,7 +12,8 @@ from typing import Any
 
 import click
 
-from raycert.cases.corpus import GOLDEN, MANIFEST, BadCorpus, read_manifest
+from raycert.cases.corpus import GOLDEN, MANIFEST, read_manifest
+from raycert.cases.files import BadFile
 from raycert.cases.model import SOLIDS
 from raycert.oracle.client.dialogue import Target, Unusable
 from raycert.oracle.commands.options import (
@@ -117,7 +118,7 @@ def _check(options: dict[str, Any]) -> None:
     for hint, folder in read:
         try:
             read_manifest(folder)
-        except BadCorpus as error:
+        except BadFile as error:
             raise click.BadParameter(str(error), param_hint=hint) from None
 
 

@@ -8,6 +8,9 @@ from typing import Any
 
 import click
 
+from raycert.cases.files import BadFile
+from raycert.oracle.commands.options import BadInput
+
 VERBS: dict[str, dict[str, tuple[str, str]]] = {
     "Certify your tracer": {
         "harness": ("harness", "Write a starter client in C, C++, Rust, Go, Java, ..."),
@@ -77,6 +80,13 @@ class Verbs(click.Group):
             hint = f"did you mean {' or '.join(near)}?" if near else "see: raycert --help"
             ctx.fail(f"no verb {word!r}; {hint}")
         return super().resolve_command(ctx, args)
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Do what the verb does; whatever it reads and cannot use ends it with exit status 2."""
+        try:
+            return super().invoke(ctx)
+        except BadFile as error:
+            raise BadInput(str(error)) from None
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the verbs and what they do, importing none of them."""

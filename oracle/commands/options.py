@@ -102,13 +102,10 @@ precision_option = click.option(
 
 
 def read(precision: str, golden: Path | None) -> Corpus:
-    """Return the rows of a precision, or stop with what is wrong with the files."""
-    from raycert.cases.corpus import GOLDEN, BadCorpus, read_corpus
+    """Return the rows of a precision. Raises `BadFile`."""
+    from raycert.cases.corpus import GOLDEN, read_corpus
 
-    try:
-        return read_corpus(precision, golden or GOLDEN)
-    except BadCorpus as error:
-        raise BadInput(str(error)) from None
+    return read_corpus(precision, golden or GOLDEN)
 
 
 def find(corpus: Corpus, id: str) -> GoldenRow:

@@ -99,9 +99,9 @@ class Campaign:
 
     def __init__(self, session: pytest.Session) -> None:
         """Greet the target. Whatever keeps it from being tested is a `pytest.UsageError`."""
-        from raycert.cases.corpus import BadCorpus
+        from raycert.cases.files import BadFile, read_text
         from raycert.cases.protocol import BadLine
-        from raycert.oracle.certify.known import BadExpectations, Expectations, read
+        from raycert.oracle.certify.known import Expectations, read
         from raycert.oracle.certify.run import NotInCorpus, Unsuitable, prepare
         from raycert.oracle.client.dialogue import Unusable
 
@@ -112,11 +112,9 @@ class Campaign:
         try:
             self.plan = _plan(session.config)
             if self.file:
-                self.expectations = read(Path(self.file).read_text("utf-8"), self.file)
+                self.expectations = read(read_text(Path(self.file)), self.file)
             self.prepared: Prepared = prepare(self.plan)
-        except (OSError, UnicodeDecodeError) as error:
-            raise pytest.UsageError(f"--raycert-expect: {error}") from None
-        except (BadCorpus, BadLine, BadExpectations, NotInCorpus, Unsuitable, Unusable) as error:
+        except (BadFile, BadLine, NotInCorpus, Unsuitable, Unusable) as error:
             raise pytest.UsageError(f"raycert: {error}") from None
 
     def check(self, family: str, subtests: Any) -> None:

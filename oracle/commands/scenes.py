@@ -36,6 +36,7 @@ def read(source: str | None, size: str | None) -> tuple[Scene, str]:
     from dataclasses import replace
     from pathlib import Path
 
+    from raycert.cases.files import BadFile
     from raycert.cases.model import Refused
     from raycert.cases.scene import load, read_size, shipped
 
@@ -44,10 +45,8 @@ def read(source: str | None, size: str | None) -> tuple[Scene, str]:
         raise click.UsageError(f"name a scene: {names}, or a file")
     try:
         scene = load(source)
-    except Refused as refusal:
-        raise BadInput(f"{source}: {refusal}") from None
-    except OSError as error:
-        raise BadInput(f"{source}: {error.strerror}; scenes that come along: {names}") from None
+    except BadFile as error:
+        raise BadInput(f"{error}; scenes that come along: {names}") from None
     if size:
         words = size.lower().split("x")
         if len(words) != 2 or not all(word.isdecimal() for word in words):

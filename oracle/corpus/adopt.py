@@ -18,8 +18,8 @@ from raycert.cases.case import Case, Family, Tier
 from raycert.cases.corpus import (
     GOLDEN,
     MANIFEST,
-    BadCorpus,
     decode_rows,
+    golden_file,
     manifest,
     read_manifest,
     write_whole,
@@ -34,11 +34,12 @@ from raycert.cases.families.adopted import (
     slug_of,
 )
 from raycert.cases.families.catalog import FAMILIES
+from raycert.cases.files import read_file
 from raycert.cases.flags import FLAGS
 from raycert.cases.formats import FORMATS, Format
 from raycert.cases.forms import write_ray, write_solid
 from raycert.cases.lattice import is_lattice
-from raycert.cases.model import Ray, Refused, Solid, leaves, type_of
+from raycert.cases.model import Ray, Solid, leaves, type_of
 from raycert.cases.numbers import Probe, is_usual, numbers
 from raycert.cases.row import GoldenRow
 from raycert.oracle.corpus.golden import Contradiction, golden_files
@@ -108,7 +109,7 @@ def examine(candidate: Candidate, witnesses: Sequence[str]) -> Hearing:
 def adopt(corpus: Path, name: str, candidate: Candidate, slug: str | None = None) -> Adoption:
     """Keep a case in a family of a corpus, as inputs and as golden rows.
 
-    Raises `Unfit`, `BadAdopted` and `BadCorpus`; then nothing is written.
+    Raises `Unfit` and `BadFile`; then nothing is written.
     """
     _fit(name, candidate)
     source = corpus / "adopted" / f"{name}.jsonl"
@@ -186,13 +187,8 @@ def _files(golden: Path) -> dict[str, bytes]:
     """Return the golden files of a corpus, none where there is no manifest."""
     if not (golden / MANIFEST).exists():
         return {}
-    files = {}
-    for file, entry in read_manifest(golden)["files"].items():
-        data = (golden / file).read_bytes() if (golden / file).is_file() else b""
-        if hashlib.sha256(data).hexdigest() != entry["sha256"]:
-            raise BadCorpus(f"{golden / file} is not as in the manifest; see: raycert golden check")
-        files[file] = data
-    return files
+    entries = read_manifest(golden)["files"].items()
+    return {file: golden_file(golden, file, entry) for file, entry in entries}
 
 
 def _new(candidate: Candidate, files: dict[str, bytes]) -> None:
@@ -260,13 +256,11 @@ def from_row(row: GoldenRow, fmt: Format, why: str) -> Candidate:
 def rows_in(path: Path, fmt: Format) -> list[tuple[GoldenRow, Format]]:
     """Return the golden rows of a file, or of all files of a directory, with their formats.
 
-    The format of a file is told by its folder; else it is `fmt`. Raises `BadCorpus`.
+    The format of a file is told by its folder; else it is `fmt`. Raises `BadFile`.
     """
     found = []
     for file in sorted(path.glob("*/*.jsonl")) if path.is_dir() else [path]:
         own = FORMATS.get(file.parent.name, fmt)
-        try:
-            found += [(row, own) for row in decode_rows(file.read_bytes(), own, str(file))]
-        except Refused as error:
-            raise BadCorpus(f"{file}: {error}") from None
+        data = read_file(file, regular=path.is_dir())
+        found += [(row, own) for row in decode_rows(data, own, str(file))]
     return found

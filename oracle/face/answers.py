@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import TYPE_CHECKING, Any, overload
 
 from raycert.cases.accept import Numbers
+from raycert.cases.files import TOO_DEEP, decode_json, is_shallow
 from raycert.cases.formats import FORMATS, Spelling
 from raycert.cases.forms import read_ray, read_solid
 from raycert.cases.model import Ray, Refused, Solid
@@ -168,9 +168,11 @@ def read(form: str | bytes | Mapping[str, Any], precision: str = "binary64") -> 
     Sphere(center=(0.0, 0.0, 0.0), radius=0.5)
     """
     try:
-        given = json.loads(form) if isinstance(form, str | bytes) else form
+        given = decode_json(form) if isinstance(form, str | bytes) else form
     except ValueError as error:
-        raise Refused("", f"is not JSON: {error}") from None
+        raise Refused("", str(error)) from None
+    if not is_shallow(given):
+        raise Refused("", TOO_DEEP)
     if not isinstance(given, Mapping):
         raise Refused("", f"is not an object: {given!r:.40}")
     fmt, spelling = FORMATS[precision], _spelling(given)

@@ -16,7 +16,6 @@ same; installed, in all.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -26,11 +25,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
-from raycert.cases.corpus import read_manifest
+from raycert.cases.corpus import golden_file, read_manifest
 from raycert.cases.dice import Dice
 from raycert.cases.draw import jittered, sampled
+from raycert.cases.files import read_as
 from raycert.cases.formats import FORMATS, Format
-from raycert.cases.forms import read_ray, read_solid
+from raycert.cases.forms import Fields, read_ray, read_solid
 from raycert.cases.numbers import Probe, between, numbers, ordinal
 from raycert.oracle.corpus.fresh import possible
 from raycert.oracle.hunt.look import Observation
@@ -157,13 +157,17 @@ def _sources(site: Site, fmt: Format) -> Iterator[Probe]:
 def _golden(folder: Path, precision: str) -> tuple[Probe, ...]:
     """Return the probes of golden rows that are not of the range tier; nothing else is read."""
     fmt, probes = FORMATS[precision], []
-    for name in read_manifest(folder)["files"]:
+
+    def usual(form: object) -> Iterator[Probe]:
+        get = Fields(form, "row")
+        if get("tier", str) != "range":
+            solid = read_solid(get("solid", dict), "solid", "hex", fmt)
+            yield Probe(solid, read_ray(get("ray", dict), "ray", "hex", fmt))
+
+    for name, entry in read_manifest(folder)["files"].items():
         if name.startswith(f"{precision}/"):
-            for line in (folder / name).read_bytes().splitlines():
-                form = json.loads(line)
-                if form["tier"] != "range":
-                    solid = read_solid(form["solid"], "solid", "hex", fmt)
-                    probes.append(Probe(solid, read_ray(form["ray"], "ray", "hex", fmt)))
+            for line in golden_file(folder, name, entry).splitlines():
+                probes += read_as(folder / name, line, lambda form: [*usual(form)])
     return tuple(probes)
 
 

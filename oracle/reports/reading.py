@@ -6,13 +6,17 @@ until `clean` has seen it.
 
 from __future__ import annotations
 
+import json
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
 from math import isfinite
 from typing import Any, Literal
 
 from raycert.cases.levels import upto
+from raycert.cases.model import Refused
 from raycert.oracle.certify.certificate import CERTIFICATE_VERSION
 
 Json = dict[str, Any]
@@ -246,31 +250,28 @@ def beside(certificate: Json, note: str = "") -> list[str]:
 
 # Is it a certificate at all?
 
-OBJECTS = "standing asked subject corpus tool environment run not_tested not_decisive solids table"
-FIELDS: dict[str, type | tuple[type, ...]] = {
-    **dict.fromkeys(("granted", "passed", "accepted"), bool),
-    **dict.fromkeys(OBJECTS.split(), dict),
-    **dict.fromkeys(("reasons", "selection", "families", "worst", "failures"), list),
-    "shard": (str, type(None)),
-    "expectations": (dict, type(None)),
-    "tested": int,
-    "reproduce": str,
-}
-
-
-class BadCertificate(ValueError):
-    """What is read is no certificate; the text names the field."""
-
 
 def check(form: object) -> Json:
-    """Return a certificate as it is, or refuse it. The whole form is for the JSON Schema."""
+    """Return a certificate as it is, or refuse what its schema does not describe."""
+    from fastjsonschema import JsonSchemaException
+
     if not isinstance(form, dict) or "certificate" not in form:
-        raise BadCertificate("certificate: is missing; is this a file that certify wrote?")
+        raise Refused("certificate", "is missing; is this a file that certify wrote?")
     if form["certificate"] != CERTIFICATE_VERSION:
-        raise BadCertificate(f"certificate: is not version {CERTIFICATE_VERSION}")
-    for name, kind in FIELDS.items():
-        if name not in form:
-            raise BadCertificate(f"{name}: is missing")
-        if not isinstance(form[name], kind):
-            raise BadCertificate(f"{name}: is of another type")
+        raise Refused("certificate", f"is not of version {CERTIFICATE_VERSION}")
+    try:
+        _schema()(form)
+    except JsonSchemaException as error:
+        path, reason = str(error.name), str(error.message).removeprefix(f"{error.name} ")
+        raise Refused(path.replace("data", "certificate", 1), f"{reason:.200}") from None
     return form
+
+
+@cache
+def _schema() -> Callable[[object], object]:
+    import fastjsonschema
+
+    text = (files("raycert.oracle") / "schemas" / "certificate.schema.json").read_bytes()
+    check: Callable[[object], object]
+    check = fastjsonschema.compile(json.loads(text), use_default=False)
+    return check

@@ -19,7 +19,6 @@ from raycert.cases.corpus import (
     FORMAT_VERSION,
     GOLDEN,
     MANIFEST,
-    BadCorpus,
     decode_rows,
     encode_rows,
     manifest,
@@ -27,6 +26,7 @@ from raycert.cases.corpus import (
     read_manifest,
     write_whole,
 )
+from raycert.cases.files import BadFile
 from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
 from raycert.cases.row import GoldenRow, read_row, write_row
 from shared.corpus import golden
@@ -82,10 +82,10 @@ def test_an_altered_file_is_refused(tmp_path: Path) -> None:
     path = stored(tmp_path) / NAME
     data = path.read_bytes()
     path.write_bytes(data.replace(b"hand/miss", b"hand/mist"))
-    with pytest.raises(BadCorpus, match=r"hand\.jsonl: SHA-256 differs"):
+    with pytest.raises(BadFile, match=r"hand\.jsonl: SHA-256 differs"):
         read_corpus("binary64", tmp_path)
     path.write_bytes(data[:-1])
-    with pytest.raises(BadCorpus, match="SHA-256"):
+    with pytest.raises(BadFile, match="has 3 rows, the manifest says 4"):
         read_corpus("binary64", tmp_path)
     path.write_bytes(data)
     assert len(read_corpus("binary64", tmp_path).rows) == len(RAYS)
@@ -93,7 +93,7 @@ def test_an_altered_file_is_refused(tmp_path: Path) -> None:
 
 def test_a_missing_file_is_refused(tmp_path: Path) -> None:
     (stored(tmp_path) / NAME).unlink()
-    with pytest.raises(BadCorpus, match=r"hand\.jsonl: No such file"):
+    with pytest.raises(BadFile, match=r"hand\.jsonl: No such file"):
         read_corpus("binary64", tmp_path)
 
 
@@ -102,17 +102,17 @@ def test_a_missing_file_is_refused(tmp_path: Path) -> None:
     ["", "[]", "{}", '{"format": 1}', '{"format": 0, "files": {}}', '{"format": 1, "files": []}'],
 )
 def test_a_manifest_that_is_none_is_refused(tmp_path: Path, text: str) -> None:
-    with pytest.raises(BadCorpus, match="golden write"):
+    with pytest.raises(BadFile, match="golden write"):
         read_manifest(tmp_path)
     (tmp_path / MANIFEST).write_text(text)
-    with pytest.raises(BadCorpus, match=MANIFEST):
+    with pytest.raises(BadFile, match=MANIFEST):
         read_corpus("binary64", tmp_path)
 
 
 def test_an_id_occurs_once(tmp_path: Path) -> None:
     row = some_rows()[0]
     restamp(tmp_path, encode_rows([row, row], BINARY64))
-    with pytest.raises(BadCorpus, match=r"hand\.jsonl: the id hand/rational occurs twice"):
+    with pytest.raises(BadFile, match=r"hand\.jsonl: the id hand/rational occurs twice"):
         read_corpus("binary64", tmp_path)
 
 
@@ -136,13 +136,13 @@ def test_a_malformed_line_is_named(
     lines[0] = spoil(lines[0])
     lines[0], lines[2] = lines[2], lines[0]
     restamp(tmp_path, b"\n".join(lines))
-    with pytest.raises(BadCorpus, match=rf"^binary64/hand\.jsonl:3: .*({message})"):
+    with pytest.raises(BadFile, match=rf"^binary64/hand\.jsonl:3: .*({message})"):
         read_corpus("binary64", tmp_path)
 
 
 def test_a_row_of_another_precision_is_refused() -> None:
     row = replace(some_rows()[0], ray=replace(RAYS["miss"], origin=(0.1, 0, 0)))
-    with pytest.raises(BadCorpus, match=r"x:1: .*binary32"):
+    with pytest.raises(BadFile, match=r"x:1: .*binary32"):
         list(decode_rows(encode_rows([row], BINARY64), BINARY32, "x"))
 
 

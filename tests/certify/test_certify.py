@@ -17,6 +17,7 @@ from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.verdict import Touches, by_family, by_solid, verdict
 from raycert.oracle.client.process import Failure
 from raycert.oracle.commands.certify import certify
+from raycert.oracle.commands.main import main
 from raycert.oracle.zoo import inhabitants
 from raycert.oracle.zoo.inhabitants import BY_NAME
 from raycert.reference.tracer import intersect
@@ -179,7 +180,7 @@ def test_a_part_of_the_corpus_is_no_certificate(tmp_path: Path) -> None:
 def test_bad_usage_says_what_is_wrong(
     options: list[str], code: int, words: str, tmp_path: Path
 ) -> None:
-    result = CliRunner().invoke(certify, [*options, "--out", str(tmp_path / "c.json")][::1])
+    result = CliRunner().invoke(main, ["certify", *options, "--out", str(tmp_path / "c.json")])
     assert result.exit_code == code, result.output
     assert words in result.output
 

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from raycert.oracle.commands.certify import certify
+from raycert.oracle.commands.main import main
 
 
 @pytest.fixture(autouse=True)
@@ -21,7 +21,7 @@ def importable(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
 
 def run(*options: str) -> Result:
-    return CliRunner().invoke(certify, list(options))
+    return CliRunner().invoke(main, ["certify", *options])
 
 
 def form(name: str = "certificate.json") -> dict[str, Any]:

@@ -12,7 +12,8 @@ from raycert.cases.corpus import read_corpus
 from raycert.cases.flags import FLAGS
 from raycert.cases.formats import Format
 from raycert.cases.model import Cylinder, Difference, Ray, Slab, Sphere
-from raycert.oracle.commands.listing import list_cases, show
+from raycert.oracle.commands.listing import show
+from raycert.oracle.commands.main import main
 from raycert.oracle.corpus.golden import write
 
 UNIT = Cylinder((0, 0, 0), (0, 0, 2), 1)
@@ -42,7 +43,7 @@ def golden(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def run(golden: Path, *words: str) -> Result:
-    return CliRunner().invoke(list_cases, [*words, "--golden", str(golden)])
+    return CliRunner().invoke(main, ["list", *words, "--golden", str(golden)])
 
 
 def slugs(result: Result) -> list[str]:
@@ -98,7 +99,7 @@ def test_families_are_listed_with_their_tiers(golden: Path) -> None:
 
 
 def test_installed_families_are_listed_with_their_reasons() -> None:
-    result = CliRunner().invoke(list_cases, ["--families"])
+    result = CliRunner().invoke(main, ["list", "--families"])
     assert result.exit_code == 0
     assert all(line.split("\t")[2] for line in result.stdout.splitlines())
 

@@ -9,9 +9,10 @@ from typing import Any
 import pytest
 
 from raycert.cases.case import Case, Family
-from raycert.cases.corpus import MANIFEST, BadCorpus, encode_rows, read_corpus, write_whole
+from raycert.cases.corpus import MANIFEST, encode_rows, read_corpus, write_whole
 from raycert.cases.families.adopted import Retired, encode, families, read
 from raycert.cases.families.catalog import FAMILIES
+from raycert.cases.files import BadFile
 from raycert.cases.formats import BINARY32, BINARY64, Format
 from raycert.cases.model import Cylinder, Ray, Sphere, Union
 from raycert.oracle.corpus import golden
@@ -132,7 +133,7 @@ def test_altered_golden_files_are_not_blessed(tmp_path: Path) -> None:
     adopt(tmp_path, "crossed", FOUND)
     path = tmp_path / "golden" / "binary64" / "crossed.jsonl"
     path.write_bytes(path.read_bytes().replace(b"crosses", b"cresses"))
-    with pytest.raises(BadCorpus, match="not as in the manifest"):
+    with pytest.raises(BadFile, match="the manifest says"):
         adopt(tmp_path, "others", OTHER)
 
 
@@ -185,5 +186,5 @@ def test_golden_rows_are_found_with_the_format_of_their_folder(tmp_path: Path) -
     row, fmt = found[0]
     assert from_row(row, fmt, "It is so.").source == "example/tracer #1"
     (tmp_path / "x.jsonl").write_text(json.dumps({"id": 3}))
-    with pytest.raises(BadCorpus, match=r"x\.jsonl:1"):
+    with pytest.raises(BadFile, match=r"x\.jsonl:1"):
         rows_in(tmp_path / "x.jsonl", BINARY64)

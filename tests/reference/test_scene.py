@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
+from raycert.cases.files import BadFile
 from raycert.cases.model import Refused, Sphere, Union, Vector
 from raycert.cases.scene import (
     LARGEST,
@@ -64,7 +65,7 @@ def with_(path: str, value: object) -> dict[str, Any]:
 
 
 REFUSED = [
-    ("about", 5, "about: is not a text"),
+    ("about", 5, "about: is not a line of text"),
     ("solids", ..., "solids: is missing"),
     ("solids", 7, "solids: is neither a solid"),
     ("solids", [], "solids: is empty"),
@@ -156,12 +157,12 @@ def test_a_file_is_read_and_bad_ones_say_why(tmp_path: Path) -> None:
     file.write_text(json.dumps(FORM), encoding="utf-8")
     assert load(str(file)) == read_scene(FORM)
     file.write_text("{", encoding="utf-8")
-    with pytest.raises(Refused, match="is not JSON"):
+    with pytest.raises(BadFile, match="is not JSON"):
         load(str(file))
     file.write_text("[" * 100_000, encoding="utf-8")
-    with pytest.raises(Refused, match="not JSON"):
+    with pytest.raises(BadFile, match="nested"):
         load(str(file))
-    with pytest.raises(OSError, match="No such file"):
+    with pytest.raises(BadFile, match="No such file"):
         load(str(tmp_path / "none.json"))
 
 
