@@ -253,7 +253,7 @@ def beside(certificate: Json, note: str = "") -> list[str]:
 
 def check(form: object) -> Json:
     """Return a certificate as it is, or refuse what its schema does not describe."""
-    from fastjsonschema import JsonSchemaException
+    from fastjsonschema import JsonSchemaValueException
 
     if not isinstance(form, dict) or "certificate" not in form:
         raise Refused("certificate", "is missing; is this a file that certify wrote?")
@@ -261,7 +261,7 @@ def check(form: object) -> Json:
         raise Refused("certificate", f"is not of version {CERTIFICATE_VERSION}")
     try:
         _schema()(form)
-    except JsonSchemaException as error:
+    except JsonSchemaValueException as error:
         path, reason = str(error.name), str(error.message).removeprefix(f"{error.name} ")
         raise Refused(path.replace("data", "certificate", 1), f"{reason:.200}") from None
     return form
