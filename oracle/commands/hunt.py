@@ -69,7 +69,7 @@ Ctrl-C ends the hunt and keeps what was found.
 
 \b
 Exit status: 0 nothing was found, 1 something was; 2 bad usage or input; 3 the
-target could not be run.
+target could not be run, or the cluster was lost: what was found by then is kept.
 """
 
 
@@ -101,6 +101,8 @@ def hunt(target: tuple[str, ...], **options: Any) -> None:
     found = _hunt(job, options)
     report = _written(found, job, target, options)
     _print(found, report, target, options)
+    if found.lost:
+        stop(f"the hunt ended early: {found.ended}")
     raise SystemExit(1 if found.findings else 0)
 
 
@@ -223,4 +225,4 @@ def _print(
 def _end(found: Hunt) -> str:
     """Return how a hunt ended, where that is not as it was asked to."""
     ends = {"budget": "", "most": "; ended at --most causes", "interrupted": "; interrupted"}
-    return ends.get(found.ended, f"; ended early: {found.ended}")
+    return ends.get(found.ended, "; ended early")

@@ -1,23 +1,32 @@
 """Where units are done: here, in processes of this machine, or elsewhere, through one interface.
 
 An executor gives every unit's result at least once: one whose worker was lost is done again, up to
-ATTEMPTS times. The ledger counts each once.
+ATTEMPTS times. The ledger counts each once. Results that have come are given before anything that
+is wrong is raised.
 
 A Dask cluster needs the extra `cluster`. A unit's key is made of its hunt and number, so what the
 scheduler moves from a worker that died to another is the same task. A task that the scheduler gives
 up, because worker after worker died with it, is submitted again under a new key. TARGET has to be
-runnable on every worker, where raycert has to be installed too.
+runnable on every worker, where the same raycert has to be installed too.
+
+Dask itself waits long for a scheduler or a worker that is gone: a heart beats beside it, and after
+SILENCE seconds without a sign of life of any worker the cluster is lost.
 """
 
 from __future__ import annotations
 
 import signal
+import threading
 import time
-from collections import deque
-from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from collections import Counter, deque
+from collections.abc import Callable, Sequence
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
+from dataclasses import dataclass
+from importlib.metadata import version
 from multiprocessing import get_context
+from pickle import PickleError
 from typing import Any, Protocol
 from uuid import uuid4
 
@@ -28,6 +37,10 @@ ATTEMPTS = 4
 POLL = 0.01
 CONNECT = 10.0
 """Seconds to reach the scheduler of a cluster, and for a first worker to be there."""
+BEAT, SILENCE = 1.0, 12.0
+"""Seconds between two beats of the heart, and without a sign of life until a cluster is lost."""
+GATHER = 5.0
+"""Seconds for a result that a worker has to come here, and for a connection to close."""
 
 
 class Lost(Exception):
@@ -79,7 +92,7 @@ class Processes:
     def __init__(self, work: Work, count: int) -> None:
         """Start so many processes for the work, which has to be importable there."""
         self.places = count
-        self._work, self._losses = work, 0
+        self._work, self._losses = work, Counter[int]()
         self._units: dict[Future[Haul], Unit] = {}
         self._open()
 
@@ -95,32 +108,85 @@ class Processes:
 
     def finished(self, seconds: float) -> list[Haul]:
         done, _ = wait(self._units, seconds, FIRST_COMPLETED)
-        results, lost = [], []
+        if good := [future for future in done if future.exception() is None]:
+            for future in good:
+                del self._units[future]
+            return [future.result() for future in good]
         for future in done:
-            unit = self._units.pop(future)
-            if isinstance(future.exception(), BrokenProcessPool):
-                lost.append(unit)
-            else:
-                results.append(future.result())
-        if lost:
-            self._again(lost)
-        return results
+            if not isinstance(future.exception(), BrokenProcessPool):
+                future.result()
+        if done:
+            self._again()
+        return []
 
-    def _again(self, units: list[Unit]) -> None:
-        self._losses += 1
-        if self._losses > ATTEMPTS:
-            raise Lost(f"{self._losses} times a worker process ended in the middle of its work")
-        waiting = [*units, *self._units.values()]
+    def _again(self, waiting: Sequence[Unit] = ()) -> None:
+        """Begin what was under way again, in new processes, and what waits as well."""
+        under_way = list(self._units.values())
+        self._losses.update(unit.number for unit in under_way)
+        losses = max(self._losses.values(), default=0)
+        if losses > ATTEMPTS:
+            raise Lost(f"{losses} times a worker process ended in the middle of the same work")
         self._units.clear()
         self._pool.shutdown(wait=False, cancel_futures=True)
         self._open()
-        for unit in sorted(waiting, key=lambda unit: unit.number):
+        for unit in sorted((*waiting, *under_way), key=lambda unit: unit.number):
             self.submit(unit)
 
     def close(self) -> None:
         for process in list((self._pool._processes or {}).values()):
             process.terminate()
         self._pool.shutdown(wait=True, cancel_futures=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Sent:
+    """Work for a worker whose raycert is the one that sent it: others may find something else."""
+
+    work: Work
+    version: str
+
+    def __call__(self, unit: Unit) -> Haul:
+        if (own := version("raycert")) != self.version:
+            raise Lost(f"a worker has raycert {own}, and here is {self.version}")
+        return self.work(unit)
+
+
+class Heart:
+    """Asks a scheduler for its workers, again and again, in a thread of its own.
+
+    A worker is heard of when the scheduler says that it has heard of it anew.
+    """
+
+    def __init__(self, client: Any) -> None:
+        self._client, self._seen = client, dict[str, float]()
+        self._heard, self._ended = time.monotonic(), threading.Event()
+        self._note(client.scheduler_info(n_workers=-1))
+        threading.Thread(target=self._beat, name="raycert-heart", daemon=True).start()
+
+    def _beat(self) -> None:
+        while not self._ended.is_set():
+            with suppress(Exception):  # who does not answer is silent, and that is told by the time
+                self._note(self._client.scheduler_info(n_workers=-1))
+            self._ended.wait(BEAT)
+
+    def _note(self, scheduler: Any) -> None:
+        workers = scheduler.get("workers", {})
+        seen = {address: worker["last_seen"] for address, worker in workers.items()}
+        if seen.items() - self._seen.items():
+            self._heard = time.monotonic()
+        self._seen, self.workers = seen, len(seen)
+
+    def check(self) -> None:
+        """Raise `Lost` if no worker was heard of for too long."""
+        silent, status = time.monotonic() - self._heard, self._client.status
+        if status not in ("running", "connecting"):
+            raise Lost(f"the connection to the scheduler was lost ({status})")
+        if silent > SILENCE:
+            whose = "the scheduler does not answer" if self.workers else "no worker is left"
+            raise Lost(f"{whose}: no sign of life of a worker for {silent:.0f} s")
+
+    def stop(self) -> None:
+        self._ended.set()
 
 
 class Cluster:
@@ -132,57 +198,85 @@ class Cluster:
             import distributed
         except ImportError:
             raise Lost('--scheduler needs Dask: pip install "raycert[cluster]"') from None
-        self._work, self._name = work, uuid4().hex[:8]
+        self._work, self._name = Sent(work, version("raycert")), uuid4().hex[:8]
+        self._client: Any = None
         try:
             connect: Any = distributed.Client
             self._client = connect(address, timeout=CONNECT, set_as_default=False)
             self._client.wait_for_workers(1, timeout=CONNECT)
-        except (OSError, TimeoutError, ValueError) as error:
-            raise Lost(f"no Dask worker at {address!r}: {error}") from None
+        except Exception as error:  # of whatever answers there, or does not
+            self._disconnect()
+            raise Lost(f"no Dask worker at {address!r}: {error or type(error).__name__}") from None
+        self._heart = Heart(self._client)
         self._tasks: dict[int, tuple[Any, Unit, int]] = {}
 
     @property
     def places(self) -> int:
         """Return how many workers there are now; at least 1, for more may come."""
-        return max(len(self._client.scheduler_info(n_workers=-1)["workers"]), 1)
+        return max(self._heart.workers, 1)
 
     def submit(self, unit: Unit, attempt: int = 1) -> None:
+        """Begin a unit. Raises `Lost`."""
+        self._heart.check()
         key = f"raycert-hunt-{self._name}-{unit.number}-{attempt}"
-        future = self._client.submit(self._work, unit, key=key, pure=False)
+        try:
+            future = self._client.submit(self._work, unit, key=key, pure=False)
+        except Exception as error:
+            raise Lost(f"the scheduler takes no work: {error}") from None
         self._tasks[unit.number] = future, unit, attempt
 
     def finished(self, seconds: float) -> list[Haul]:
-        self._wait(seconds)
-        results = []
-        for future, unit, attempt in list(self._tasks.values()):
-            if future.status == "finished":
-                del self._tasks[unit.number]
-                results.append(future.result())
-            elif future.status in ("error", "cancelled", "lost"):
-                self._again(future, unit, attempt)
+        """Return results that have come; only without any is raised what is wrong."""
+        end = time.monotonic() + seconds
+        while not (results := self._results()):
+            self._heart.check()
+            if self._client.status == "running":
+                self._again()
+            if time.monotonic() > end:
+                break
+            time.sleep(POLL)
         return results
 
-    def _wait(self, seconds: float) -> None:
-        """Wait until a task is no longer pending. Raises `Lost` with the scheduler."""
-        end = time.monotonic() + seconds
-        while all(future.status == "pending" for future, _, _ in self._tasks.values()):
-            if self._client.status not in ("running", "connecting"):
-                raise Lost(f"the connection to the scheduler was lost: {self._client.status}")
-            if time.monotonic() > end:
-                return
-            time.sleep(POLL)
+    def _results(self) -> list[Haul]:
+        """Return the results that are there; one that was lost on its way is done again by Dask."""
+        results: list[Haul] = []
+        for future, unit, _ in list(self._tasks.values()):
+            if future.status == "finished":
+                try:
+                    results.append(future.result(timeout=GATHER))
+                    del self._tasks[unit.number]
+                except (TimeoutError, CancelledError):
+                    continue
+                except Exception as error:
+                    if future.status == "finished" and not results:
+                        _raise(error)
+        return results
 
-    def _again(self, future: Any, unit: Unit, attempt: int) -> None:
-        """Submit a unit whose worker was lost again; what the work itself raised is raised here."""
-        error = future.exception() if future.status == "error" else None
-        if error is not None and type(error).__name__ != "KilledWorker":
-            raise error
-        if attempt == ATTEMPTS:
-            raise Lost(f"unit {unit.number} was lost {ATTEMPTS} times: {error or future.status}")
-        self.submit(unit, attempt + 1)
+    def _again(self) -> None:
+        """Submit units whose workers were lost again. Raises what the work itself raised."""
+        for future, unit, attempt in list(self._tasks.values()):
+            if future.status not in ("error", "cancelled", "lost"):
+                continue
+            error = future.exception(timeout=GATHER) if future.status == "error" else None
+            _raise(error)
+            if attempt == ATTEMPTS:
+                what = f"unit {unit.number} was lost {ATTEMPTS} times"
+                raise Lost(f"{what}: {error or future.status}")
+            self.submit(unit, attempt + 1)
 
     def close(self) -> None:
-        """Cancel what is under way, and leave the cluster running."""
-        for future, _, _ in self._tasks.values():
-            future.cancel()
-        self._client.close()
+        """Drop what is under way, and leave the cluster running."""
+        self._heart.stop()
+        self._disconnect()
+
+    def _disconnect(self) -> None:
+        with suppress(Exception):  # a scheduler that is gone hears no good-bye
+            self._client.close(timeout=GATHER)
+
+
+def _raise(error: BaseException | None) -> None:
+    """Raise what the work raised, unless its worker was killed; `Lost` where it was not read."""
+    if isinstance(error, ImportError | PickleError) or "deserializ" in str(error):
+        raise Lost(f"the cluster has another raycert, or none: {error}")
+    if error is not None and type(error).__name__ != "KilledWorker":
+        raise error

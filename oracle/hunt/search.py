@@ -11,6 +11,7 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from itertools import count
 from math import inf
@@ -35,6 +36,8 @@ from raycert.oracle.hunt.unit import (
     coarse,
 )
 
+WIND_UP = 6.0
+"""Seconds to take up what is there, once the cluster or the processes are lost."""
 LINGER = 2.0
 """Seconds after the last for units to give what they have."""
 MOST = 100
@@ -73,7 +76,10 @@ class Finding:
 
 @dataclass(slots=True)
 class Hunt:
-    """What a hunt has found so far. `ended` says how it ended: budget, most, interrupted."""
+    """What a hunt has found so far. `ended` says how it ended: budget, most, interrupted.
+
+    If the target or what does the units was `lost`, it says in words what was seen.
+    """
 
     looker: Looker
     tried: int = 0
@@ -81,6 +87,7 @@ class Hunt:
     findings: dict[Symptom, Finding] = field(default_factory=dict)
     seconds: float = 0.0
     ended: str = "budget"
+    lost: bool = False
 
 
 Progress = Callable[[Hunt], None]
@@ -89,8 +96,8 @@ Progress = Callable[[Hunt], None]
 def hunt(job: Job, budget: Budget, executor: Executor, on_progress: Progress | None = None) -> Hunt:
     """Hunt until the budget is used up, or the person interrupts.
 
-    Raises `Unusable` if the target cannot be run from the beginning; and `Unusable` and `Lost`
-    later, if nothing was found by then: what was found is returned, and `ended` says the rest.
+    Raises `Unusable` and `Lost` if nothing was tried by then: later what was found is returned, and
+    `ended` says the rest.
     """
     try:
         course = _Course(job, budget, executor, on_progress or (lambda _: None))
@@ -104,9 +111,9 @@ def hunt(job: Job, budget: Budget, executor: Executor, on_progress: Progress | N
     except KeyboardInterrupt:
         course.found.ended = "interrupted"
     except (Unusable, Lost) as error:
-        if not course.found.findings:
+        course.wind_up(str(error))
+        if not course.found.tried:
             raise
-        course.found.ended = str(error)
     finally:
         executor.close()
         course.close()
@@ -142,6 +149,14 @@ class _Course:
             if time.monotonic() > end:
                 waiting = None
         self._take(self._ledger.rest())
+
+    def wind_up(self, words: str) -> None:
+        """Take up the failures that have come, once no more will."""
+        self._clock = Clock.of(WIND_UP)
+        with suppress(TimeUp, KeyboardInterrupt, Unusable):
+            self._take(self._ledger.rest())
+        self._tell()
+        self.found.ended, self.found.lost = words, True
 
     def _units(self) -> Iterator[Unit]:
         cases, size = self._budget.cases, self._budget.unit

@@ -6,8 +6,10 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from raycert.cases.corpus import read_corpus
 from raycert.oracle.commands.certify import certify
 from raycert.oracle.commands.hunt import hunt
+from raycert.oracle.hunt.executors import Here, Lost
 from shared.hunted_targets import spec
 
 
@@ -67,6 +69,23 @@ def test_a_target_that_cannot_be_run_is_three(out):
     result = run("no_such_module:intersect", "--cases", "10", "--out", str(out))
     assert result.exit_code == 3
     assert "no_such_module" in result.output
+
+
+def test_a_loss_keeps_what_was_found_and_is_three(out, monkeypatch):
+    class Failing(Here):
+        """Does one unit; then whatever did it is gone."""
+
+        def finished(self, seconds):
+            if getattr(self, "did", False):
+                raise Lost("no worker is left")
+            self.did = True
+            return super().finished(seconds)
+
+    monkeypatch.setattr("raycert.oracle.commands.hunt.Here", Failing)
+    result = run(spec("no-clip"), "--cases", "1001", "--no-golden", "--out", str(out))
+    assert result.exit_code == 3, result.output
+    assert "the hunt ended early: no worker is left" in result.stderr
+    assert read_corpus("binary64", out).rows
 
 
 def test_workers_find_what_one_finds(out, tmp_path):

@@ -13,10 +13,12 @@ import time
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
 
 from raycert.oracle.client.inprocess import InProcess
+from raycert.oracle.hunt import executors
 from raycert.oracle.hunt.executors import Cluster, Here, Lost
 from raycert.oracle.hunt.pursuit import work
 from raycert.oracle.hunt.search import Budget, hunt
@@ -48,24 +50,30 @@ START = {
 }
 
 
-def started(kind: str, *words: str) -> tuple[subprocess.Popen[str], str]:
-    """Start a process of the cluster; return it and its address."""
-    process = subprocess.Popen(
-        [sys.executable, "-c", START[kind], *words],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.DEVNULL,
-        text=True,
-    )
-    assert process.stdout
-    return process, process.stdout.readline().strip()
+def start(kind: str, *words: str) -> subprocess.Popen[str]:
+    """Start a process of the cluster, which says its address."""
+    command = [sys.executable, "-c", START[kind], *words]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+    return subprocess.Popen(command, text=True, **pipes)
+
+
+class Started(NamedTuple):
+    """A cluster: the address of the scheduler, the workers, the scheduler."""
+
+    address: str
+    workers: list[subprocess.Popen[str]]
+    scheduler: subprocess.Popen[str]
 
 
 @pytest.fixture
-def cluster() -> Iterator[tuple[str, list[subprocess.Popen[str]]]]:
-    """Yield the address of a scheduler, and its two workers."""
-    scheduler, address = started("scheduler")
-    workers = [started("worker", address)[0] for _ in range(2)]
-    yield address, workers
+def cluster() -> Iterator[Started]:
+    """Yield a cluster of two workers."""
+    scheduler = start("scheduler")
+    address = scheduler.stdout.readline().strip()
+    workers = [start("worker", address) for _ in range(2)]
+    for worker in workers:
+        worker.stdout.readline()
+    yield Started(address, workers, scheduler)
     for process in (*workers, scheduler):
         process.kill()
         process.wait()
@@ -81,7 +89,7 @@ def slow(folder: str, unit: Unit) -> Haul:
 
 
 def test_a_worker_that_dies_loses_nothing_and_nothing_counts_twice(cluster, tmp_path):
-    address, workers = cluster
+    address, workers, _ = cluster
     executor, ledger = Cluster(partial(slow, str(tmp_path)), address), Ledger()
     units, killed = [Unit(number, 10 + number) for number in range(12)], False
     assert executor.places == 2
@@ -103,7 +111,7 @@ def test_a_worker_that_dies_loses_nothing_and_nothing_counts_twice(cluster, tmp_
 
 
 def test_a_hunt_on_a_cluster_that_loses_a_worker_finds_what_it_finds_here(cluster):
-    address, workers = cluster
+    address, workers, _ = cluster
     job = Job(InProcess("callable", spec("padded-radius")), golden=None)
     budget = Budget(cases=180, unit=60, most=2)
     alone = hunt(job, budget, Here(partial(work, job)))
@@ -120,9 +128,49 @@ def test_a_hunt_on_a_cluster_that_loses_a_worker_finds_what_it_finds_here(cluste
         assert finding.probe == alone.findings[cause].probe
 
 
-def test_a_cluster_that_is_not_there_is_said(monkeypatch):
-    from raycert.oracle.hunt import executors
+@pytest.fixture
+def hasty(monkeypatch):
+    """A heart that is not as patient as it is for people."""
+    monkeypatch.setattr(executors, "BEAT", 0.1)
+    monkeypatch.setattr(executors, "SILENCE", 1.5)
+    monkeypatch.setattr(executors, "CONNECT", 5.0)
+    monkeypatch.setattr(executors, "GATHER", 0.5)
 
+
+def loss(executor: Cluster) -> str:
+    """Return how an executor says that its cluster is lost."""
+    with pytest.raises(Lost) as said:
+        executor.finished(10.0)
+    return str(said.value)
+
+
+def test_a_cluster_that_is_lost_is_said(cluster, hasty, tmp_path):
+    work = partial(slow, str(tmp_path))
+    executor = Cluster(work, cluster.address)
+    cluster.scheduler.send_signal(signal.SIGSTOP)
+    assert "the scheduler does not answer" in loss(executor)
+    executor.close()
+    cluster.scheduler.send_signal(signal.SIGCONT)
+    executor = Cluster(work, cluster.address)
+    for worker in cluster.workers:
+        worker.kill()
+    executor.submit(Unit(1))
+    assert "no worker is left" in loss(executor)
+    executor.close()
+
+
+def test_a_scheduler_that_is_killed_is_said(cluster, hasty, tmp_path):
+    executor = Cluster(partial(slow, str(tmp_path)), cluster.address)
+    executor.submit(Unit(0))
+    cluster.scheduler.kill()
+    assert "scheduler" in loss(executor)
+    with pytest.raises(Lost):
+        executor.submit(Unit(1))
+    assert executor.places
+    executor.close()
+
+
+def test_a_cluster_that_is_not_there_is_said(monkeypatch):
     monkeypatch.setattr(executors, "CONNECT", 0.5)
     with pytest.raises(Lost, match=r"127\.0\.0\.1:9"):
         executors.Cluster(partial(slow, "."), "tcp://127.0.0.1:9")
@@ -132,9 +180,15 @@ def wrong(unit: Unit) -> Haul:
     raise ValueError("a fault of ours")
 
 
-def test_a_fault_of_the_work_is_raised(cluster):
-    executor = Cluster(wrong, cluster[0])
+def test_a_fault_of_the_work_is_raised_and_another_version_is_said(cluster, monkeypatch):
+    executor = Cluster(wrong, cluster.address)
     executor.submit(Unit(0))
     with pytest.raises(ValueError, match="ours"):
+        executor.finished(60.0)
+    executor.close()
+    monkeypatch.setattr(executors, "version", lambda _: "0.0.1")
+    executor = Cluster(wrong, cluster.address)
+    executor.submit(Unit(0))
+    with pytest.raises(Lost, match=r"and here is 0\.0\.1"):
         executor.finished(60.0)
     executor.close()

@@ -75,10 +75,35 @@ def test_what_ends_a_hunt_keeps_what_was_found(kind, ended):
     assert result.tried == 160
 
 
-def test_a_loss_before_anything_was_found_is_raised():
-    asked = Job(InProcess("callable", "raycert.reference.tracer:intersect"))
+def test_a_loss_before_anything_was_tried_is_raised():
+    class Gone(Here):
+        def finished(self, seconds):
+            raise Lost("no worker is left")
+
+    asked = job("no-clip")
     with pytest.raises(Lost):
-        hunt(asked, Budget(cases=10_000, unit=40), Failing(partial(work, asked)))
+        hunt(asked, Budget(cases=10_000, unit=40), Gone(partial(work, asked)))
+
+
+def test_a_loss_keeps_what_waits_for_a_unit_that_will_not_come():
+    class Overtaken(Here):
+        """Does unit 1; unit 0 and whatever did it are gone."""
+
+        places = 2
+
+        def submit(self, unit):
+            if unit.number == 1:
+                super().submit(unit)
+
+        def finished(self, seconds):
+            if results := super().finished(seconds):
+                return results
+            raise Lost("no worker is left")
+
+    asked = job("no-clip")
+    result = hunt(asked, Budget(cases=320, unit=160), Overtaken(partial(work, asked)))
+    assert result.lost
+    assert result.findings
 
 
 def test_an_answer_that_depends_on_the_one_before_is_kept_with_it():
