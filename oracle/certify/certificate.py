@@ -34,7 +34,7 @@ from raycert.oracle.certify.verdict import (
     Verdict,
     by_family,
     by_solid,
-    severity,
+    gravest,
     window,
 )
 from raycert.oracle.judge.answer import First, YesNo
@@ -240,31 +240,34 @@ def worst(grades: Sequence[Grade], level: Level, hello: Hello, repeat: Repeat) -
     """
     failing = [g for g in usual(grades) if g.fault(level)]
     passing = [] if failing else [g for g in usual(grades) if g.counts(level)]
-    ranked = [
-        (g, g.row.family, kind(g, level, hello))
-        for g in sorted(failing or passing, key=severity, reverse=True)
-    ]
-    chosen = _spread(ranked, MOST if failing else MOST_PASSED)
-    return [_pictured(g, name, level, hello, repeat) for g, _, name in chosen]
+    kinds = [(g, kind(g, level, hello)) for g in failing or passing]
+    chosen = _spread(kinds, MOST if failing else MOST_PASSED)
+    return [_pictured(g, name, level, hello, repeat) for g, name in chosen]
 
 
-def _spread(ranked: Sequence[tuple[Grade, str, str]], most: int) -> list[tuple[Grade, str, str]]:
-    """Return up to `most` of a ranking: each time the first of the family and kind least chosen.
+def _spread(kinds: Sequence[tuple[Grade, str]], most: int) -> list[tuple[Grade, str]]:
+    """Return up to `most`: each time the gravest of the family and kind that are chosen least.
 
     Of these a lone leaf before a tree, which is harder to see through.
     """
-    left, chosen = list(ranked), list[tuple[Grade, str, str]]()
-    times: Counter[tuple[str, str]] = Counter()
+    left: dict[tuple[str, str, bool], list[int]] = {}
+    for i, (g, name) in enumerate(kinds):
+        left.setdefault((g.row.family, name, isinstance(g.row.solid, Tree)), []).append(i)
+    chosen, times = list[tuple[Grade, str]](), Counter[tuple[str, str]]()
 
-    def rank(item: tuple[Grade, str, str]) -> tuple[int, int, bool]:
-        grade, family, kind = item
-        return times["family", family], times["kind", kind], isinstance(grade.row.solid, Tree)
+    def rank(key: tuple[str, str, bool]) -> tuple[int, int, bool]:
+        return times["family", key[0]], times["kind", key[1]], key[2]
 
     while left and len(chosen) < most:
-        best = min(left, key=rank)
-        left.remove(best)
-        chosen.append(best)
-        times.update((("family", best[1]), ("kind", best[2])))
+        least = min(map(rank, left))
+        first = sorted(i for key, some in left.items() if rank(key) == least for i in some)
+        best = first[gravest([kinds[i][0] for i in first])]
+        key = next(key for key, some in left.items() if best in some)
+        left[key].remove(best)
+        if not left[key]:
+            del left[key]
+        chosen.append(kinds[best])
+        times.update((("family", key[0]), ("kind", key[1])))
     return chosen
 
 

@@ -18,7 +18,12 @@ from raycert.cases.row import GoldenRow
 from raycert.oracle.client.dialogue import silence
 from raycert.oracle.client.process import Failure
 from raycert.oracle.judge.answer import Claim, Listed, claim
+from raycert.oracle.judge.backward import Bracket
 from raycert.oracle.judge.levels import MEASURES, Enclosures, Judge, decisive
+from raycert.oracle.judge.moved import LAST_STEP, Measure
+
+MEASURED: tuple[Measure, ...] = ("strict", "squared")
+"""The measures, from strict to lax."""
 
 
 @dataclass(frozen=True)
@@ -44,16 +49,33 @@ class Grade:
         return self.said.pairs if isinstance(self.said, Listed) else None
 
     @cached_property
-    def strict(self) -> float:
-        return inf if self.said is None else self.said.backward_error(self.judge, "strict")
+    def _brackets(self) -> dict[Measure, Bracket]:
+        if self.said is None:
+            return {measure: Bracket.at(LAST_STEP + 1) for measure in MEASURED}
+        return {measure: self.said.bracket(self.judge, measure) for measure in MEASURED}
 
-    @cached_property
+    def bracket(self, measure: Measure) -> Bracket:
+        """Return the least step of k that accepts the answer, as far as it is known by now."""
+        found = self._brackets[measure]
+        if measure == "squared":  # which allows whatever the strict one does
+            found.at_most(self._brackets["strict"].high)
+        return found
+
+    @property
+    def strict(self) -> float:
+        return self.bracket("strict").k
+
+    @property
     def squared(self) -> float:
-        return inf if self.said is None else self.said.backward_error(self.judge, "squared")
+        return self.bracket("squared").k
 
     @cached_property
     def ulps(self) -> float:
         return inf if self.said is None else self.said.forward_error(self.judge)
+
+    def measure(self) -> tuple[float, float, float]:
+        """Return all errors."""
+        return self.strict, self.squared, self.ulps
 
     def fault(self, level: Level) -> str | None:
         """Return why the row fails a level, or None. A row not decisive can only be malformed."""

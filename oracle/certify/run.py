@@ -23,7 +23,7 @@ from raycert.oracle.certify.environment import environment
 from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.known import Expectations, Matched, failed_level, match, record
 from raycert.oracle.certify.selection import Left, Selection, able, select
-from raycert.oracle.certify.verdict import Verdict, severity, verdict
+from raycert.oracle.certify.verdict import Verdict, verdict
 from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target
 from raycert.oracle.client.process import Failure
 from raycert.oracle.client.replay import Interrupted, greet
@@ -259,7 +259,8 @@ class _Answers:
             try:
                 for row in answered:
                     graded = grade(row, outcomes[row.id], self._prepared.hello)
-                    severity(graded)  # measures the errors now, where the progress shows
+                    if graded.faults:
+                        graded.measure()  # it is shown: now, where the progress is
                     self.grades.append(graded)
                     advance()
             except KeyboardInterrupt:

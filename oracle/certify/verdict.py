@@ -15,7 +15,8 @@ from raycert.cases.levels import LEVELS, Level, upto
 from raycert.cases.model import leaves, lengths, type_of
 from raycert.cases.protocol import TOUCHES, convention
 from raycert.cases.row import GoldenRow
-from raycert.oracle.certify.grading import Grade, usual
+from raycert.oracle.certify.grading import MEASURED, Grade, usual
+from raycert.oracle.exact.surd import sign
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,13 +127,48 @@ class Group:
 
     def worst(self) -> Grade:
         """Return the grade to look at first: the lowest level failed, then k, then ulps."""
-        return max(self.grades, key=severity)
+        return self.grades[gravest(self.grades)]
 
 
-def severity(grade: Grade) -> tuple[int, float, float, float]:
-    """Return a key that grows with how bad a grade is."""
-    failed = [i for i, level in enumerate(LEVELS) if grade.fault(level)]
-    return (len(LEVELS) - min(failed, default=len(LEVELS)), grade.strict, grade.squared, grade.ulps)
+def gravest(grades: Sequence[Grade]) -> int:
+    """Return the place of the first of the gravest.
+
+    Graver is a lower level failed, then more k, by the strict measure before the squared one, then
+    more ulps. The gravest is measured. Of the others it is only shown that they are not graver:
+    those that look worst come first, so that for most a single step of k tells.
+    """
+    order = sorted(range(len(grades)), key=lambda i: _promise(grades[i]), reverse=True)
+    worst = order[0]
+    for i in order[1:]:
+        more = graver(grades[i], grades[worst])
+        if more > 0 or (not more and i < worst):
+            worst = i
+    return worst
+
+
+def _promise(grade: Grade) -> tuple[int, int]:
+    return -lowest_failed(grade), grade.bracket("strict").guess
+
+
+def lowest_failed(grade: Grade) -> int:
+    """Return the place of the lowest level that a grade fails; 4 where it fails none."""
+    return next((i for i, level in enumerate(LEVELS) if grade.fault(level)), len(LEVELS))
+
+
+def graver(one: Grade, other: Grade) -> int:
+    """Return 1 if one is graver than the other, -1 if it is less so, 0 if neither.
+
+    The other is measured; of the one no more is than tells them apart.
+    """
+    if more := lowest_failed(other) - lowest_failed(one):
+        return sign(more)
+    for measure in MEASURED:
+        step, bracket = other.bracket(measure).least, one.bracket(measure)
+        if bracket.within(step - 1):
+            return -1
+        if not bracket.within(step):
+            return 1
+    return (one.ulps > other.ulps) - (one.ulps < other.ulps)
 
 
 def by_solid(grades: Iterable[Grade]) -> list[Group]:

@@ -69,6 +69,12 @@ class Grid(NamedTuple):
         shift = self.speed - self.length
         return Surd(x << shift, y << shift, d, z) if shift > 0 else Surd(x, y, d, z << -shift)
 
+    def parameter(self, t: float) -> tuple[int, int]:
+        """Return t, finite, as a fraction in the grid's unit of t."""
+        n, m = t.as_integer_ratio()
+        shift = self.length - self.speed
+        return (n << shift, m) if shift > 0 else (n, m << -shift)
+
     def ratio(self, numerator: int, denominator: int) -> Surd:
         """Return numerator / denominator in the grid's unit of t, as a number."""
         return self.surd(numerator, 0, 0, denominator)

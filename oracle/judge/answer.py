@@ -20,8 +20,9 @@ from typing import Any, Protocol, TypeVar
 from raycert.cases.accept import Accept, Numbers
 from raycert.cases.protocol import FromInside, Hello, Reply, first_end
 from raycert.oracle.exact.surd import ZERO, dyadic
+from raycert.oracle.judge.backward import Bracket
 from raycert.oracle.judge.levels import Enclosures, Judge
-from raycert.oracle.judge.moved import Measure
+from raycert.oracle.judge.moved import LAST_STEP, Measure
 
 
 class Claim(Protocol):
@@ -39,8 +40,12 @@ class Claim(Protocol):
     def is_faithful(self, wanted: Numbers, enclosures: Enclosures) -> str | None:
         """Return why a number of it is not one of the two around the exact one; None if it is."""
 
+    def bracket(self, judge: Judge, measure: Measure) -> Bracket:
+        """Return the least step of k that accepts it, to be found."""
+
     def backward_error(self, judge: Judge, measure: Measure) -> float:
         """Return the least k that accepts it; infinite where none does."""
+        return self.bracket(judge, measure).k
 
     def forward_error(self, judge: Judge) -> float:
         """Return the largest distance of a number of it from the exact one, in ulps."""
@@ -60,7 +65,7 @@ def claim(reply: Reply, hello: Hello) -> Claim:
 
 
 @dataclass(frozen=True, slots=True)
-class Listed:
+class Listed(Claim):
     """An interval list."""
 
     pairs: Numbers
@@ -84,8 +89,8 @@ class Listed:
                     return f"{x!r} is not one of the two numbers around the exact one, {two}"
         return None
 
-    def backward_error(self, judge: Judge, measure: Measure) -> float:
-        return judge.backward_error(self.pairs, measure)
+    def bracket(self, judge: Judge, measure: Measure) -> Bracket:
+        return judge.bracket_of_list(self.pairs, measure)
 
     def forward_error(self, judge: Judge) -> float:
         return judge.forward_error(self.pairs)
@@ -95,7 +100,7 @@ class Listed:
 
 
 @dataclass(frozen=True, slots=True)
-class First:
+class First(Claim):
     """A first hit at t, or none; from inside it is what `from_inside` says."""
 
     t: float | None
@@ -128,14 +133,15 @@ class First:
             return None
         return f"{self.t!r} is not one of the two numbers around the exact one, {two}"
 
-    def backward_error(self, judge: Judge, measure: Measure) -> float:
+    def bracket(self, judge: Judge, measure: Measure) -> Bracket:
         if self.malformed(judge):
-            return inf
+            return Bracket.at(LAST_STEP + 1)
         t = None if self.t is None else dyadic(self.t)
         last = dyadic(inf)
-        return judge.least_k(
+        return judge.bracket(
             measure,
             lambda inner, outer: not first_fault(t, inner, outer, self.from_inside, ZERO, last),
+            () if self.t is None else ((self.t, self.t),),
         )
 
     def forward_error(self, judge: Judge) -> float:
@@ -153,7 +159,7 @@ class First:
 
 
 @dataclass(frozen=True, slots=True)
-class YesNo:
+class YesNo(Claim):
     """Whether anything is hit."""
 
     hit: bool
@@ -172,8 +178,10 @@ class YesNo:
     def is_faithful(self, wanted: Numbers, enclosures: Enclosures) -> str | None:
         return self.is_expected(wanted)
 
-    def backward_error(self, judge: Judge, measure: Measure) -> float:
-        return judge.least_k(measure, lambda inner, outer: bool(outer) if self.hit else not inner)
+    def bracket(self, judge: Judge, measure: Measure) -> Bracket:
+        return judge.bracket(
+            measure, lambda inner, outer: bool(outer) if self.hit else not inner, ()
+        )
 
     def forward_error(self, judge: Judge) -> float:
         return 0.0 if self.hit == bool(judge.expected) else inf

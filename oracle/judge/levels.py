@@ -6,7 +6,6 @@ An answer is a list of pairs of numbers of a format. It is compared as a set of 
 
 from __future__ import annotations
 
-from bisect import bisect_left
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -19,9 +18,12 @@ from raycert.cases.model import HalfSpace, Intersection, Ray, Solid, Tree, leave
 from raycert.oracle.exact.intervals import Interval, Intervals, contains, expected, meets
 from raycert.oracle.exact.surd import INFINITY, Surd, dyadic, enclose, nearest, sign_1
 from raycert.oracle.exact.trace import trace
+from raycert.oracle.judge.backward import Bracket, guess
 from raycert.oracle.judge.moved import LAST_STEP, Measure, Movable, Step, moved_leaf
 
 MEASURES: dict[Level, Measure] = {"sound": "squared", "stable": "strict"}
+Right = Callable[[Intervals, Intervals], bool]
+"""Whether an answer is right between an inner and an outer list."""
 Enclosures = tuple[tuple[tuple[float, float], tuple[float, float]], ...]
 """For each pair of a list, the two numbers that enclose each of its ends."""
 LIMIT = 20
@@ -166,25 +168,32 @@ class Judge:
 
         Infinite for what is no list, and where no k does.
         """
+        return self.bracket_of_list(answer, measure).k
+
+    def bracket_of_list(self, answer: Pairs, measure: Measure) -> Bracket:
+        """Return the least step that accepts an answer, to be found."""
         if malformed(answer, True):
-            return inf
+            return Bracket.at(LAST_STEP + 1)
         given = tuple((dyadic(a), dyadic(b)) for a, b in answer)
-        return self.least_k(
-            measure, lambda inner, outer: contains(outer, given) and contains(given, inner)
+        return self.bracket(
+            measure, lambda inner, outer: contains(outer, given) and contains(given, inner), answer
         )
 
-    def least_k(self, measure: Measure, right: Callable[[Intervals, Intervals], bool]) -> float:
-        """Return the least k for whose inner and outer list `right` holds; infinite without one.
+    def bracket(self, measure: Measure, right: Right, answer: Pairs) -> Bracket:
+        """Return the least step for whose inner and outer list `right` holds, to be found.
 
-        `right` has to be monotone: true for k, it is true for all larger ones.
+        `right` has to be monotone: what is right stays so when inner shrinks and outer grows. So
+        what is right with the exact list as both is right for every k. `answer` tells the guess
+        where to look.
         """
 
         def holds(step: int) -> bool:
             return right(self.moved(step, measure, -1), self.moved(step, measure, 1))
 
-        steps = range(LAST_STEP + 1)
-        i = bisect_left(steps, True, key=holds)
-        return float(Step.at(i)) if i < len(steps) else inf
+        found = Bracket(holds, lambda: guess(self.movable, measure, answer, self.expected))
+        if right(self.exact, self.exact):
+            found.at_most(0)
+        return found
 
     def forward_error(self, answer: Pairs) -> float:
         """Return the largest distance of an endpoint from the exact one, in ulps of the exact one.

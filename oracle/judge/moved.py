@@ -23,7 +23,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from math import isqrt
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from raycert.cases.formats import Format
 from raycert.cases.model import (
@@ -43,7 +43,7 @@ from raycert.cases.model import (
 from raycert.cases.vectors import dot, minus
 from raycert.oracle.exact.grid import Grid, IntVector
 from raycert.oracle.exact.intervals import EVERYTHING, NOTHING, Intervals, clip, intersection
-from raycert.oracle.exact.leaf import Plane, Quadric, ball, caps, half_space, wall
+from raycert.oracle.exact.leaf import Plane, Quadric, ball, capped, caps, half_space, wall
 from raycert.oracle.exact.surd import INFINITY, ZERO, sign_1
 from raycert.oracle.exact.trace import combine
 
@@ -173,20 +173,39 @@ def moved_plane(face: Plane, move: Shift, sigma: int, grid: Grid) -> Intervals:
     return half_line(face.b, -sigma * move.d1, face.c, -sigma * move.d0, face.square, grid)
 
 
-def moved_leaf(leaf: Leaf, move: Shift, sigma: int, grid: Grid) -> Intervals:
-    """Return the list of a leaf whose faces moved by sigma delta."""
+class Faces(NamedTuple):
+    """The faces of a leaf as conditions on t, and its radius: what does not depend on the move."""
+
+    radius: int
+    each: tuple[Quadric | Plane, ...]
+
+
+def faces(leaf: Leaf, grid: Grid) -> Faces:
+    """Return the faces of a leaf, the curved one first."""
     match leaf:
         case HalfSpace():
-            return moved_plane(half_space(leaf, grid), move, sigma, grid)
+            return Faces(0, (half_space(leaf, grid),))
         case Sphere():
-            return moved_wall(ball(leaf, grid), grid.scalar(leaf.radius), move, sigma, grid)
+            return Faces(grid.scalar(leaf.radius), (ball(leaf, grid),))
         case InfiniteCylinder():
-            return moved_wall(wall(leaf, grid), grid.scalar(leaf.radius), move, sigma, grid)
-    planes = [moved_plane(face, move, sigma, grid) for face in caps(leaf, grid)]
-    if isinstance(leaf, Slab):
-        return intersection(planes)
-    curved = moved_wall(wall(leaf, grid), grid.scalar(leaf.radius), move, sigma, grid)
-    return intersection((curved, *planes))
+            return Faces(grid.scalar(leaf.radius), (wall(leaf, grid),))
+        case Slab():
+            return Faces(0, caps(leaf, grid))
+    return Faces(grid.scalar(leaf.radius), capped(leaf, grid))
+
+
+def moved_faces(of: Faces, move: Shift, sigma: int, grid: Grid) -> Intervals:
+    """Return the list of a leaf whose faces moved by sigma delta."""
+    return intersection(
+        moved_plane(face, move, sigma, grid)
+        if isinstance(face, Plane)
+        else moved_wall(face, of.radius, move, sigma, grid)
+        for face in of.each
+    )
+
+
+def moved_leaf(leaf: Leaf, move: Shift, sigma: int, grid: Grid) -> Intervals:
+    return moved_faces(faces(leaf, grid), move, sigma, grid)
 
 
 @dataclass(frozen=True)
@@ -205,6 +224,10 @@ class Movable:
     @cached_property
     def sizes(self) -> dict[Leaf, tuple[int, int]]:
         return {leaf: size(leaf, self.grid) for _, leaf in leaves(self.solid)}
+
+    @cached_property
+    def faces(self) -> dict[Leaf, Faces]:
+        return {leaf: faces(leaf, self.grid) for _, leaf in leaves(self.solid)}
 
     def shift(self, leaf: Leaf, k: Step, measure: Measure) -> Shift:
         s0, s1 = self.sizes[leaf]
@@ -240,7 +263,7 @@ class Movable:
 
     def _moved(self, solid: Solid, sigma: int, move: Move) -> Intervals:
         if not isinstance(solid, Tree):
-            return moved_leaf(solid, move(solid), sigma, self.grid)
+            return moved_faces(self.faces[solid], move(solid), sigma, self.grid)
         away = -sigma if isinstance(solid, Difference) else sigma
         lists = [self._moved(part, away if i else sigma, move) for i, part in enumerate(solid.of)]
         return combine(solid, lists)

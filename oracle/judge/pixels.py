@@ -13,7 +13,7 @@ is the least k, as the judge's own bisection finds it, because the measure is mo
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from math import hypot, inf
 
 from raycert.cases.accept import Pairs, malformed
@@ -35,6 +35,7 @@ from raycert.cases.model import (
 )
 from raycert.cases.scene import Scene, frame, pixel_ray
 from raycert.cases.vectors import cross, dot, minus
+from raycert.oracle.judge.backward import Bracket
 from raycert.oracle.judge.levels import Judge
 from raycert.oracle.judge.moved import Step
 
@@ -72,32 +73,12 @@ def error(solid: Solid, ray: Ray, answer: Pairs, guess: int = 0) -> tuple[float,
     judge = Judge(near, ray, BINARY64)
     if not answer and not judge.exact:
         return float(Step.at(0)), 0
-    step = _least(lambda i: judge.accepts(answer, i, "strict"), guess)
+    step = Bracket(lambda i: judge.accepts(answer, i, "strict"), lambda: guess, LAST).least
     return (float(Step.at(step)), step) if step <= LAST else _in_full(solid, ray, answer)
 
 
 def _in_full(solid: Solid, ray: Ray, answer: Pairs) -> tuple[float, int]:
     return Judge(solid, ray, BINARY64).backward_error(answer, "strict"), LAST
-
-
-def _least(accepts: Callable[[int], bool], guess: int) -> int:
-    """Return the least step that accepts, LAST + 1 if none up to there does.
-
-    The steps around the guess are tried in strides that double.
-    """
-    low, high = -1, LAST + 1
-    stride = 1
-    step = min(guess, LAST)
-    while low < step < high:
-        if accepts(step):
-            high, step = step, step - stride
-        else:
-            low, step = step, step + stride
-        stride *= 2
-    while high - low > 1:
-        middle = (low + high) // 2
-        low, high = (low, middle) if accepts(middle) else (middle, high)
-    return high
 
 
 def cut(solid: Solid, ray: Ray) -> Solid | None:
