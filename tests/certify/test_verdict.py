@@ -73,3 +73,11 @@ def test_most_of_the_others_cost_one_step_of_k(monkeypatch: pytest.MonkeyPatch) 
         gravest(some)
     assert 50 < inexact < len(grades) / 3
     assert asked < 2 * inexact
+
+
+def test_of_equals_the_first_is_told_whatever_is_guessed() -> None:
+    row, reply = golden().rows[0], Reply("0", intervals=((1.0, 2.0),))
+    some = [grade(row, reply, Hello("x")) for _ in range(3)]
+    for g, guess in zip(some, (3, 90, 40), strict=True):
+        g.bracket("strict").guess = guess
+    assert gravest(some) == 0
