@@ -23,7 +23,7 @@ from raycert.cases.model import Refused
 from raycert.cases.row import GoldenRow, read_row, row_of, write_row
 
 FORMAT_VERSION = 1
-CORPUS_VERSION = "2026.1"
+CORPUS_VERSION = "2026.2"
 GOLDEN = Path(__file__).parent / "golden"
 MANIFEST = "manifest.json"
 NAME = re.compile(rf"({'|'.join(FORMATS)})/[a-z0-9]+(-[a-z0-9]+)*\.jsonl")

@@ -19,7 +19,8 @@ from raycert.oracle.client.dialogue import silence
 from raycert.oracle.client.process import Failure
 from raycert.oracle.judge.answer import Claim, Listed, claim
 from raycert.oracle.judge.backward import Bracket
-from raycert.oracle.judge.levels import MEASURES, Enclosures, Judge, decisive
+from raycert.oracle.judge.decisive import decisive
+from raycert.oracle.judge.levels import MEASURES, Enclosures, Judge
 from raycert.oracle.judge.moved import LAST_STEP, Measure
 
 MEASURED: tuple[Measure, ...] = ("strict", "squared")
@@ -112,7 +113,7 @@ def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
     assert said is not None
     faults: dict[str, str] = {}
     outside: dict[str, str] = {}
-    decides = deciding(row, judge)
+    decides = decisive(judge) if judge.tolerance else row.decisive
     for level in LEVELS:
         fault = _level_fault(level, row, said, judge, hello)
         if level not in decides:
@@ -120,17 +121,6 @@ def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
         elif fault or faults:  # what fails a level fails those above it
             faults[level] = fault or next(reversed(faults.values()))
     return Grade(row, said, faults, judge, decides, outside)
-
-
-def deciding(row: GoldenRow, judge: Judge) -> tuple[str, ...]:
-    """Return the levels that a row decides for a client, whose tolerance may take some away.
-
-    A tolerance beyond c, 1/8 of the smallest radius or thickness, would excuse a gross answer.
-    """
-    if not judge.tolerance:
-        return row.decisive
-    finer = tuple(level for level in LEVELS if level not in MEASURES)
-    return decisive(judge) if judge.movable.tolerance_is_fine() else finer
 
 
 def _level_fault(

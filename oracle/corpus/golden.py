@@ -20,7 +20,8 @@ from raycert.oracle.exact.faces import place, touch
 from raycert.oracle.exact.intervals import Interval, Intervals
 from raycert.oracle.exact.surd import INFINITY, Surd, decimal, enclose, fraction
 from raycert.oracle.exact.trace import trace
-from raycert.oracle.judge.levels import MEASURES, Judge, decisive
+from raycert.oracle.judge.decisive import decisive
+from raycert.oracle.judge.levels import MEASURES, Judge
 from raycert.oracle.witness.crosscheck import Query, check
 
 Progress = Callable[[str], None]

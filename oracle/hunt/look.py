@@ -22,13 +22,8 @@ from raycert.cases.lattice import is_lattice
 from raycert.cases.levels import Level, upto
 from raycert.cases.model import (
     SOLIDS,
-    HalfSpace,
-    Leaf,
-    Ray,
     Solid,
-    Sphere,
     Tree,
-    leaves,
     type_of,
     types,
 )
@@ -41,7 +36,8 @@ from raycert.oracle.corpus.golden import golden_row
 from raycert.oracle.exact.faces import touch
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.answer import Claim, First, Listed, claim
-from raycert.oracle.judge.levels import Judge, decisive
+from raycert.oracle.judge.decisive import decisive
+from raycert.oracle.judge.levels import Judge
 from raycert.oracle.judge.moved import LAST_STEP
 from raycert.oracle.zoo.matrix import kind
 
@@ -150,7 +146,7 @@ class Looker:
             reason = said.fault(accept)
             if not reason:
                 break
-            decides = decides or deciding(judge)
+            decides = decides or decisive(judge)
             flaw = Flaw(level, how(said, accept), reason) if level in decides else flaw
         return flaw
 
@@ -175,31 +171,9 @@ class Looker:
         if not isinstance(outcome, Reply) or silence(outcome):
             return inf
         judge = self.judge(probe)
-        if "stable" not in deciding(judge):
+        if "stable" not in decisive(judge):
             return 0.0
         return claim(outcome, self.hello).backward_error(judge, "strict")
-
-
-def deciding(judge: Judge) -> tuple[Level, ...]:
-    """Return the levels that a case decides; a coarse tolerance takes some away.
-
-    So does a start on a face among numbers that are all 0, where no face moves: to keep or drop
-    what is touched there is a convention.
-    """
-    coarse = judge.tolerance and not judge.movable.tolerance_is_fine()
-    if coarse or any(_is_pinned(leaf, judge.ray) for _, leaf in leaves(judge.solid)):
-        return ("faithful", "exact")
-    return decisive(judge)
-
-
-def _is_pinned(leaf: Leaf, ray: Ray) -> bool:
-    """Whether a leaf has no size where the ray starts on it."""
-    match leaf:
-        case HalfSpace(point, _):
-            return not any((*point, *ray.origin))
-        case Sphere(center, radius):
-            return not any((*center, radius, *ray.origin))
-    return False
 
 
 def coarse_k(said: Claim, judge: Judge) -> float:

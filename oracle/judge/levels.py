@@ -13,9 +13,9 @@ from math import frexp, inf, isinf
 
 from raycert.cases.accept import Accept, Numbers, Pairs, malformed
 from raycert.cases.formats import BINARY64, Format
-from raycert.cases.levels import LEVELS, Level, Tier
-from raycert.cases.model import HalfSpace, Intersection, Ray, Solid, Tree, leaves
-from raycert.oracle.exact.intervals import Interval, Intervals, contains, expected, meets
+from raycert.cases.levels import Level, Tier
+from raycert.cases.model import Intersection, Ray, Solid, Tree, leaves
+from raycert.oracle.exact.intervals import Intervals, contains, expected, meets
 from raycert.oracle.exact.surd import INFINITY, Surd, dyadic, enclose, nearest, sign_1
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.backward import Bracket, guess
@@ -244,41 +244,3 @@ def _distance(x: Surd, t: Surd, ulp: int) -> Surd:
     a, b, z = (x.x * t.z - t.x * x.z) * up, -t.y * x.z * up, x.z * t.z * down
     flip = -1 if sign_1(a, b, t.d) < 0 else 1
     return Surd(flip * a, flip * b, t.d, z)
-
-
-def decisive(judge: Judge) -> tuple[Level, ...]:
-    """Return the levels for which a case is decisive, from weak to strong.
-
-    Those where no gross answer hides in the move of k = 64. Gross is measured by each leaf's own c,
-    1/8 of the smaller of its radius and thickness; half-spaces stay where they are on both sides of
-    the comparison. A row is decisive if
-
-    - every exact interval that holds one of the list moved inward by c holds one of inner, and
-    - every outer interval meets an interval of the list moved outward by c that holds all the exact
-      intervals which the outer one holds: outer neither joins nor adds what c does not.
-
-    `faithful` and `exact` compare with the expected list itself: every row decides them.
-    """
-    return tuple(level for level in LEVELS if level not in MEASURES or _decides(judge, level))
-
-
-def _decides(judge: Judge, level: Level) -> bool:
-    movable, measure, step = judge.movable, MEASURES[level], Step.at(LIMIT)
-    inner, outer = (movable.by_k(step, measure, sigma, (HalfSpace,)) for sigma in (-1, 1))
-    deep, wide = movable.by_constant(-1), movable.by_constant(1)
-    return _keeps(judge.exact, deep, inner) and _adds_nothing(judge.exact, wide, outer)
-
-
-def _keeps(exact: Intervals, deep: Intervals, inner: Intervals) -> bool:
-    return all(_holds_any(e, inner) for e in exact if _holds_any(e, deep))
-
-
-def _holds_any(one: Interval, lists: Intervals) -> bool:
-    return any(meets(one, other) for other in lists)
-
-
-def _adds_nothing(exact: Intervals, wide: Intervals, outer: Intervals) -> bool:
-    def held(interval: Interval) -> set[int]:
-        return {i for i, e in enumerate(exact) if meets(e, interval)}
-
-    return all(any(meets(o, w) and held(o) <= held(w) for w in wide) for o in outer)

@@ -18,7 +18,8 @@ from raycert.cases.model import Slab, leaves
 from raycert.oracle.exact.condition import kappa
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.surd import Surd, enclose
-from raycert.oracle.judge.levels import LIMIT, Judge, decisive
+from raycert.oracle.judge.decisive import decisive
+from raycert.oracle.judge.levels import LIMIT, Judge
 from raycert.oracle.judge.moved import LAST_STEP, Measure, Step
 from raycert.oracle.measure.way import Answered, Case, Pairs
 

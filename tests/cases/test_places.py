@@ -37,7 +37,6 @@ PLACES = {
     "oracle.zoo.surfaces": "faults of its walls",
     "oracle.explain.derive": "the steps of its derivation",
     "oracle.reports.section": "the plane to look at it in",
-    "oracle.hunt.look": "where its faces cannot move",
     "oracle.hunt.moves": "moves that it invites, and what is simpler than it",
     "oracle.measure.arrays": "the naive formula in arrays",
     "oracle.measure.quadratics": "the formulas that are raced",

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from math import inf
+
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -17,10 +20,12 @@ from raycert.cases.model import (
     Ray,
     Slab,
     Solid,
+    Sphere,
     Union,
 )
-from raycert.oracle.exact.trace import trace
-from raycert.oracle.judge.levels import Judge, decisive
+from raycert.oracle.exact.surd import INFINITY
+from raycert.oracle.judge.decisive import decisive
+from raycert.oracle.judge.levels import LIMIT, Judge
 from shared.grid import leaves, rays, solids
 
 ALL = LEVELS
@@ -132,37 +137,108 @@ def test_every_row_decides_what_compares_numbers(solid: Solid, ray: Ray, fmt: Fo
     assert list(found) == [level for level in LEVELS if level in found]
 
 
-def is_parallel_miss(leaf: Solid, ray: Ray) -> bool:
-    """Tell whether the ray runs beside an infinite leaf at one distance for ever."""
-    answer = trace(leaf, ray)
-    signs = dict(answer.decisions[0].signs)
-    parallel = 0 in (signs.get("vv"), signs.get("vn")) and any(ray.direction)
-    return not answer.intervals and parallel and isinstance(leaf, InfiniteCylinder | Slab)
-
-
 @settings(deadline=None)
 @given(leaves, rays)
-def test_on_a_small_grid_every_row_but_a_parallel_miss_is_decisive(leaf: Solid, ray: Ray) -> None:
+def test_on_a_small_grid_every_row_is_decisive(leaf: Solid, ray: Ray) -> None:
     """A move of 2^-45 hides nothing in a scene of size 1, unless c is 0: a radius of 0."""
     if getattr(leaf, "radius", 1) > 0 and not isinstance(leaf, HalfSpace):
-        assert levels(leaf, ray) == ALL or is_parallel_miss(leaf, ray)
+        assert levels(leaf, ray) == ALL
 
 
+TUBE, LAYER = InfiniteCylinder((0, 0, 0), (0, 0, 2), 1), Slab((0, 0, 0), (0, 0, 2))
+PARALLEL: dict[str, tuple[Solid, Callable[[float], Ray]]] = {
+    "tube": (TUBE, lambda far: Ray((1 + far, 0, 0), (0, 0, 1))),
+    "slab": (LAYER, lambda far: Ray((0, 0, 2 + far), (4, 0, 0))),
+    "line": (InfiniteCylinder((0, 0, 0), (0, 0, 2), 0), lambda far: Ray((0, far, 1), (0, 0, -1))),
+    "union": (Union((TUBE, can())), lambda far: Ray((1 + far, 0, 3), (0, 0, 1))),
+    "behind": (Union((TUBE, can())), lambda far: Ray((1 + far, 0, -9), (0, 0, 1))),
+}
+
+
+@both
+@pytest.mark.parametrize("power", [-2, 0, 1, 9, 21, 30, 60, 100])
+@pytest.mark.parametrize("name", PARALLEL)
+def test_a_parallel_miss_decides_however_far_beside(name: str, power: int, fmt: Format) -> None:
+    """What outer adds begins where the move has grown by c, beyond 2^(precision - 10) radii."""
+    solid, beside = PARALLEL[name]
+    judge = Judge(solid, beside(2.0**power), fmt)
+    assert judge.exact == ()
+    assert decisive(judge) == ALL
+    for level, reach in (("sound", fmt.precision // 2 - 6), ("stable", fmt.precision - 12)):
+        for t in (0.0, 1.0, 2.0**reach):
+            assert judge.accept(level).fault([(t, inf)]), "a gross answer hides"
+
+
+def test_inside_what_is_taken_away_a_parallel_miss_decides_too() -> None:
+    """The move inward makes the bore vanish in the end: outer adds what is left around it."""
+    bored = Difference((HalfSpace((0, 0, 1), (-1, 0, 0)), TUBE))
+    judge = Judge(bored, Ray((0.5, 0, 3), (0, 0, 1)))
+    assert judge.exact == ()
+    assert judge.moved(LIMIT, "strict", 1) != ()
+    assert decisive(judge) == ALL
+
+
+@both
+def test_a_ray_as_good_as_parallel_decides_and_a_far_miss_does_not(fmt: Format) -> None:
+    """Tilted by one unit in the last place, the ray leaves more slowly than the move grows.
+
+    The far miss is met where it is, and left again: its interval has an end.
+    """
+    tilted = Ray((3, 0, 0), (2.0 ** (1 - fmt.precision), 0, 1))
+    assert levels(TUBE, tilted, fmt) == ALL
+    assert Judge(TUBE, tilted, fmt).moved(LIMIT, "strict", 1)[-1][1] == INFINITY
+    for power in (fmt.precision - 7, fmt.precision, 100):
+        assert levels(TUBE, far(power, 3), fmt) == FINER
+
+
+def test_a_parallel_miss_is_lost_where_the_numbers_are_coarser_than_the_gap() -> None:
+    """At 2^50, the move at the start is 24: it reaches a tube 3 radii beside at once."""
+    place = 2.0**50
+    there = InfiniteCylinder((place, 0, 0), (place, 0, 2), 1)
+    assert levels(there, Ray((place + 4, 0, 0), (0, 0, 1))) == FINER
+    assert "stable" in levels(there, Ray((place + 64, 0, 0), (0, 0, 1)))
+
+
+FLOOR = HalfSpace((0, 0, 0), (0, 0, 1))
+DOT = Sphere((0, 0, 0), 0)
+OUT, ALONG, IN = (1, 0, 2), (1, 2, 0), (0, 1, -2)
+
+
+@both
 @pytest.mark.parametrize(
-    ("near", "away", "direction"),
+    ("solid", "direction", "wanted"),
     [
-        (InfiniteCylinder((0, 0, 0), (0, 0, 2), 1), (3, 0, 0), (0, 0, 1)),
-        (Slab((0, 0, 0), (0, 0, 2)), (0, 0, 3), (1, 0, 0)),
+        (FLOOR, OUT, FINER),
+        (FLOOR, ALONG, FINER),
+        (FLOOR, (0, 0, 0), FINER),
+        (FLOOR, IN, ALL),
+        (DOT, OUT, FINER),
+        (Intersection((FLOOR, Sphere((0, 0, 0), 2))), OUT, FINER),
+        (Union((FLOOR, Sphere((0, 0, 9), 2))), OUT, FINER),
+        (Union((FLOOR, Sphere((0, 0, 1), 2))), OUT, ALL),
+        (Difference((Sphere((0, 0, 1), 2), FLOOR)), OUT, ALL),
     ],
 )
-def test_beside_an_infinite_leaf_the_move_arrives_in_the_end(
-    near: Solid, away: tuple[float, float, float], direction: tuple[float, float, float]
+def test_a_touch_where_nothing_moves_is_a_convention(
+    solid: Solid, direction: tuple[float, float, float], wanted: tuple[str, ...], fmt: Format
 ) -> None:
-    """s(t) grows without bound: some t far out is in outer, and c adds no hit unless it is near."""
-    assert levels(near, Ray(away, direction)) == FINER
-    close = (1.0625, 0.0, 2.125)
-    assert levels(near, Ray(close, direction)) == ALL
-    assert levels(can(), Ray(away, direction)) == ALL
+    """Start and leaf lie in the origin: s(0) = 0, and to drop the touch is no gross answer."""
+    assert levels(solid, Ray((0, 0, 0), direction), fmt) == wanted
+
+
+@both
+def test_a_touch_where_something_moves_is_no_convention(fmt: Format) -> None:
+    """At (0, 0, 1) the plane moves; and a tolerance moves it in the origin too."""
+    ray = Ray((0, 0, 1), OUT)
+    assert levels(HalfSpace((0, 0, 1), (0, 0, 1)), ray, fmt) == ALL
+    tolerant = Judge(FLOOR, Ray((0, 0, 0), OUT), fmt, tolerance=2.0**-9)
+    assert decisive(tolerant) == ALL
+
+
+def test_a_tolerance_beyond_c_decides_nothing_that_moves() -> None:
+    ray = Ray((-3, 0, 1), (1, 0, 0))
+    assert decisive(Judge(can(), ray, tolerance=0.125)) == ALL
+    assert decisive(Judge(can(), ray, tolerance=0.126)) == FINER
 
 
 def test_a_point_is_decisive_for_nothing_it_could_lose() -> None:
