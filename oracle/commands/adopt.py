@@ -12,7 +12,7 @@ from raycert.cases.files import read_file
 from raycert.cases.formats import FORMATS, Format
 from raycert.cases.levels import TIERS
 from raycert.oracle.commands.asking import from_json
-from raycert.oracle.commands.options import FOLDER, PRECISIONS, BadInput, check_writable
+from raycert.oracle.commands.options import FOLDER, PRECISIONS, BadInput, writing
 from raycert.oracle.corpus.adopt import (
     CORPUS,
     Candidate,
@@ -75,19 +75,19 @@ def adopt(file: Path, family: str, slug: str | None, corpus: Path | None, **opti
     again. The witnesses that are installed are asked; one that finds another answer refuses.
     """
     folder = _corpus(corpus)
-    check_writable(folder, "--corpus")
     found = _found(file, options)
     try:
         checked = examine(found, installed())
-        kept = keep(folder, family, found, slug)
+        with writing(folder):
+            kept = keep(folder, family, found, slug)
+            _say(checked)
+            click.echo(f"adopted as {kept.id} ({', '.join(kept.precisions)})")
+            for path in kept.files:
+                click.echo(f"written {path}")
     except Contradiction as error:
         raise click.ClickException(f"nothing was written: {error}") from None
     except Unfit as error:
         raise BadInput(str(error)) from None
-    _say(checked)
-    click.echo(f"adopted as {kept.id} ({', '.join(kept.precisions)})")
-    for path in kept.files:
-        click.echo(f"written {path}")
 
 
 def _corpus(corpus: Path | None) -> Path:
@@ -96,7 +96,8 @@ def _corpus(corpus: Path | None) -> Path:
         return corpus
     if not (CORPUS.parent / "pyproject.toml").is_file():
         raise BadInput("this is no checkout; say where to keep the case: --corpus DIR")
-    return CORPUS
+    tried: Path = FOLDER.convert(CORPUS, None, None)
+    return tried
 
 
 def _found(file: Path, options: dict[str, Any]) -> Candidate:

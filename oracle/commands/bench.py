@@ -10,8 +10,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.measuring import chosen, drawing, end, known, ways_options, write_rows
-from raycert.oracle.commands.options import check_writable, counting, repeatable
+from raycert.oracle.commands.measuring import (
+    chosen,
+    drawing,
+    end,
+    known,
+    ways_options,
+    write_files,
+    write_rows,
+)
+from raycert.oracle.commands.options import counting, repeatable
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -110,8 +118,6 @@ def run(sections: Sequence[str], options: dict[str, Any]) -> Report:
     known(options["scenarios"], SETS, "--scenario")
     for name in sections:
         _check_needs(name)
-    if options["out"] is not None:
-        check_writable(options["out"], "--out")
     effort = QUICK if options["quick"] else FULL
     rays = options["rays"] or effort.rays
     report = Report(options["seed"], replace(effort, rays=rays))
@@ -239,11 +245,11 @@ def _write(report: Report, folder: Path) -> list[Path]:
     written = write_rows(folder, "bench", report.as_json(), table)
     with drawing():
         from raycert.oracle.plots.pareto import draw
-        from raycert.oracle.plots.style import save, styled
+        from raycert.oracle.plots.style import pictures, styled
 
         for name in report.sets():
             rows = report.rows(name)
             with styled():
                 drawn = draw(rows, f"{rows[0].rays} rays, {place(report.seed)}")
-                written += save(drawn, folder, f"bench-{name}")
+                written += write_files(folder, pictures(drawn, f"bench-{name}"))
     return written

@@ -11,12 +11,12 @@ import click
 
 from raycert.oracle.commands.options import (
     FILE,
+    FILE_OR_DASH,
     KNOWN_FILE,
     TARGETS,
     Function,
     aim,
     check_convention,
-    check_writable,
     counting,
     family_option,
     golden_option,
@@ -28,7 +28,8 @@ from raycert.oracle.commands.options import (
     spelled,
     stop,
     tier_option,
-    write_text,
+    write_out,
+    writing,
 )
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
 NARROWED = ("solids", "tiers", "families", "ids", "smoke")
 REPORTS = {
     "html": "One page with pictures that needs no network.",
-    "markdown": "A summary for a CI job.",
+    "markdown": "A summary for a CI job, added to what FILE holds.",
     "junit": "JUnit XML: one test for a family.",
 }
 
@@ -69,14 +70,15 @@ Examples:
 
 \b
 Exit status: 0 granted, or accepted with --expect; 1 not granted; 2 bad usage or
-input; 3 the target could not be run or nothing was tested.
+input; 3 the target could not be run or nothing was tested; 4 an output could not
+be written: the verdict is printed, what is missing is said last.
 """
 
 
 def report_options(function: Function) -> Function:
-    out = click.Path(dir_okay=False, allow_dash=True)
     for form, text in reversed(REPORTS.items()):
-        function = click.option(f"--{form}", type=out, metavar="FILE", help=text)(function)
+        option = click.option(f"--{form}", type=FILE_OR_DASH, metavar="FILE", help=text)
+        function = option(function)
     return function
 
 
@@ -115,10 +117,6 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     from raycert.oracle.certify.known import write
     from raycert.oracle.reports.reading import verdict
 
-    for option, out in (("--out", options["out"]), ("--write-expectations", options["record"])):
-        if out:
-            check_writable(out.parent, option)
-    reports = _wanted(options)
     expected = _expectations(options["expect"])
     for line in expected.warnings if expected else ():
         click.echo(f"raycert: {options['expect']}: {line}", err=True)
@@ -126,11 +124,14 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     known = result.matched(expected).as_json(str(options["expect"])) if expected else None
     form = result.form(spelled(target), known)
     form["standing"] = _standing(result.prepared.hello.name, aim(target), options)
+    _print(form)
+    out, data = str(options["out"]), json.dumps(form, indent=1, allow_nan=False) + "\n"
+    written = [out] if write_out(out, data) else []
     if options["record"]:
-        write_text(options["record"], write(result.recorded(expected)))
-    write_text(options["out"], json.dumps(form, indent=1, allow_nan=False) + "\n")
-    write_reports(form, reports)
-    _print(form, " ".join((str(options["out"]), *reports.values())))
+        write_out(options["record"], write(result.recorded(expected)))
+    written += write_reports(form, _wanted(options))
+    with writing("standard output"):
+        click.echo(f"certificate: {' '.join(written)}")
     if not form["tested"] or form["reasons"] == ["nothing was tested"]:
         raise SystemExit(3)
     raise SystemExit(0 if verdict(form).good else 1)
@@ -203,37 +204,40 @@ def _standing(name: str, target: Target, options: dict[str, Any]) -> dict[str, A
 
 
 def _wanted(options: dict[str, Any]) -> dict[str, str]:
-    """Return the reports asked for, form and file; a file that cannot be written is refused."""
-    reports = {form: options[form] for form in REPORTS if options[form] is not None}
-    for form, out in reports.items():
-        if out != "-":
-            check_writable(Path(out).parent, f"--{form}")
-    return reports
+    """Return the reports asked for, form and file."""
+    return {form: options[form] for form in REPORTS if options[form] is not None}
 
 
-def write_reports(certificate: dict[str, Any], reports: dict[str, str]) -> None:
-    """Write a certificate in each form (a key of WRITERS) to its file; `-` is standard output."""
+def write_reports(certificate: dict[str, Any], reports: dict[str, str]) -> list[str]:
+    """Write a certificate in each form (a key of WRITERS) to its file; return those written.
+
+    Markdown is added to what its file has: a summary of a job that others write to as well.
+    """
     from raycert.oracle.reports.page import WRITERS
 
-    for form, out in reports.items():
-        write_text(out, WRITERS[form](certificate))
+    return [
+        out
+        for form, out in reports.items()
+        if write_out(out, WRITERS[form](certificate), append=form == "markdown")
+    ]
 
 
-def _print(certificate: dict[str, Any], written: str | None) -> None:
+def _print(certificate: dict[str, Any]) -> None:
     from rich.console import Console
 
     from raycert.oracle.reports.terminal import report as show
 
-    show(certificate, Console(width=None if sys.stdout.isatty() else 120), written)
+    with writing("standard output"):
+        show(certificate, Console(width=None if sys.stdout.isatty() else 120))
 
 
 REPORT_EPILOG = """\b
 Examples:
   raycert report certificate.json
   raycert report certificate.json --html out.html --junit out.xml
-  raycert report certificate.json --markdown - >> "$GITHUB_STEP_SUMMARY"
+  raycert report certificate.json --markdown "$GITHUB_STEP_SUMMARY"
 
-Exit status: 0 done, 2 the file is no certificate, or bad usage.
+Exit status: 0 done, 2 the file is no certificate, or bad usage, 4 a report could not be written.
 """
 
 
@@ -254,4 +258,4 @@ def report(certificate: Path, **options: str | None) -> None:
     if reports:
         write_reports(form, reports)
     else:
-        _print(form, None)
+        _print(form)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import shlex
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -15,7 +14,7 @@ from raycert.cases.formats import FORMATS
 from raycert.cases.forms import write_ray, write_solid
 from raycert.cases.row import GoldenRow
 from raycert.oracle.commands.asking import case_options, chosen, count_given
-from raycert.oracle.commands.options import aim, check_writable, stop, write_text
+from raycert.oracle.commands.options import FILE_OR_DASH, aim, stop, write_out
 from raycert.oracle.explain.console import show, show_proofs
 from raycert.oracle.explain.derive import Derivation, as_given, derive, given, to_json
 from raycert.oracle.explain.wording import Fact, Passage
@@ -47,7 +46,12 @@ Examples:
     help="json: the golden row and the steps, as data.",
 )
 @click.option("--full", is_flag=True, help="Long integers in full.")
-@click.option("--html", metavar="FILE", help="Write a page with pictures instead; - is stdout.")
+@click.option(
+    "--html",
+    type=FILE_OR_DASH,
+    metavar="FILE",
+    help="Write a page with pictures instead; - is stdout.",
+)
 @click.option(
     "--with",
     "targets",
@@ -85,8 +89,6 @@ def explain(form: str, symbolic: bool, full: bool, **options: Any) -> None:
         raise click.UsageError("--html is a page of one case, and instead of --format json")
     if options["targets"] and not page:
         raise click.UsageError("--with is for the page; add --html FILE")
-    if page and page != "-":
-        check_writable(Path(page).parent, "--html")
     derivation = _derivation(options) if given else None
     statements = _proofs() if symbolic else []
     if page and derivation is not None:
@@ -141,8 +143,7 @@ def _write(file: str, derivation: Derivation, options: dict[str, Any]) -> None:
     aims = [(word, aim(tuple(shlex.split(word)))) for word in words]
     answers = [ask(word, target, row, fmt.name) for word, target in aims]
     text = case_page(derivation, answers, _repeat(derivation, options))
-    write_text(file, text)
-    if file != "-":
+    if write_out(file, text) and file != "-":
         click.echo(f"written {file}", err=True)
 
 

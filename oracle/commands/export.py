@@ -15,6 +15,7 @@ from raycert.cases.numbers import leaf_numbers
 from raycert.cases.row import End, GoldenRow
 from raycert.oracle.commands.listing import select
 from raycert.oracle.commands.options import (
+    FILE_OR_DASH,
     BadInput,
     family_option,
     golden_option,
@@ -22,7 +23,7 @@ from raycert.oracle.commands.options import (
     read,
     tier_option,
     unknown,
-    write_text,
+    write_out,
 )
 
 HEADER = """id tier type solid ray expected down up decisive
@@ -86,7 +87,7 @@ def _help() -> str:
 @click.command(epilog=_help())
 @click.option(
     "--out",
-    type=click.Path(dir_okay=False),
+    type=FILE_OR_DASH,
     default="-",
     show_default=True,
     help="File to write; - is standard output.",
@@ -105,11 +106,7 @@ def export(out: str, solids: str | None, precision: str, golden: Path | None, **
     chosen = _made_of(chosen, solids) if solids else chosen
     if not chosen:
         raise BadInput("no row is such; see: raycert list --families")
-    try:
-        write_text(out, "".join(f"{line}\n" for line in lines(chosen, corpus)))
-    except OSError as error:
-        raise BadInput(f"--out {out}: {error.strerror}") from None
-    if out != "-":
+    if write_out(out, "".join(f"{line}\n" for line in lines(chosen, corpus))) and out != "-":
         click.echo(f"{len(chosen)} rows written to {out}", err=True)
 
 

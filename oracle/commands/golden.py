@@ -9,7 +9,7 @@ import click
 from raycert.cases.case import Family
 from raycert.cases.corpus import GOLDEN
 from raycert.cases.families.catalog import FAMILIES
-from raycert.oracle.commands.options import FOLDER, KNOWN_FOLDER, check_writable, counting
+from raycert.oracle.commands.options import FOLDER, KNOWN_FOLDER, counting, writing
 from raycert.oracle.corpus.adopt import sources
 from raycert.oracle.corpus.golden import RELEASE, USUAL, Contradiction, compare
 from raycert.oracle.corpus.golden import write as write_files
@@ -17,7 +17,7 @@ from raycert.oracle.corpus.golden import write as write_files
 folder_option = click.option(
     "--golden",
     "folder",
-    type=FOLDER,
+    type=click.Path(file_okay=False, path_type=Path),
     help="Directory of the golden files  [default: the installed corpus]",
 )
 corpus_option = click.option(
@@ -47,15 +47,15 @@ def write(folder: Path | None, corpus: Path | None, release: bool) -> None:
     not written, and neither is anything else.
     """
     target, families = _place(folder, corpus)
-    check_writable(target, "--golden")
+    FOLDER.convert(target, None, None)
     try:
-        with counting("computing") as advance:
+        with writing(target), counting("computing") as advance:
             witnesses = RELEASE if release else USUAL
             files = write_files(target, families, lambda _: advance(), witnesses)
+            rows = sum(data.count(b"\n") for data in files.values())
+            click.echo(f"{rows} rows in {len(files)} files written to {target}")
     except Contradiction as error:
         raise click.ClickException(f"nothing was written. {error}") from None
-    rows = sum(data.count(b"\n") for data in files.values())
-    click.echo(f"{rows} rows in {len(files)} files written to {target}")
 
 
 @golden.command()

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import click
 
-from raycert.cases.corpus import write_whole
+from raycert.oracle.commands.options import FOLDER, write_out
 
 MARK = b"replace from here"
 """Begins the one place, in one file of each language, that is the user's."""
@@ -65,7 +65,7 @@ Examples:
 @click.argument("lang", required=False)
 @click.option(
     "--out",
-    type=click.Path(file_okay=False, path_type=Path),
+    type=FOLDER,
     help="Directory to write to  [default: tracer-LANG, or readers]",
 )
 @click.option("--force", is_flag=True, help="Overwrite files that are there.")
@@ -82,8 +82,10 @@ def harness(lang: str | None, out: Path | None, force: bool, listing: bool) -> N
         raise click.UsageError(f"{wrong}; there are: {', '.join((*STARTERS, READERS))}")
     folder = out or Path(READERS if lang == READERS else f"tracer-{lang}")
     files = dict(templates(lang))
-    _write(folder, files, force)
-    if lang == READERS:
+    written = _write(folder, files, force)
+    if len(written) < len(files):
+        click.echo(f"Wrote {len(written)} of {len(files)} files to {folder}.")
+    elif lang == READERS:
         click.echo(f"Wrote {len(files)} files to {folder}. Its README.md says how to use them.")
     else:
         _advise(STARTERS[lang], folder, files)
@@ -107,16 +109,12 @@ def _walk(folder: Traversable, path: str) -> Iterator[tuple[str, bytes]]:
             yield from _walk(entry, f"{path}{entry.name}/")
 
 
-def _write(folder: Path, files: dict[str, bytes], force: bool) -> None:
-    """Write all the files, or none where one is there already."""
+def _write(folder: Path, files: dict[str, bytes], force: bool) -> list[str]:
+    """Write all the files, or none where one is there; return the names of those written."""
     there = [str(folder / name) for name in files if (folder / name).exists()]
     if there and not force:
         raise click.UsageError(f"already there: {', '.join(there)}; --force overwrites")
-    try:
-        for name, data in files.items():
-            write_whole(folder / name, data)
-    except OSError as error:
-        raise click.UsageError(f"cannot write to {folder}: {error}") from None
+    return [name for name, data in files.items() if write_out(folder / name, data)]
 
 
 def _advise(starter: Starter, folder: Path, files: dict[str, bytes]) -> None:

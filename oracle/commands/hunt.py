@@ -21,7 +21,6 @@ from raycert.oracle.commands.options import (
     TARGETS,
     aim,
     check_convention,
-    check_writable,
     golden_option,
     level_option,
     limits,
@@ -29,6 +28,7 @@ from raycert.oracle.commands.options import (
     solid_option,
     spelled,
     stop,
+    writing,
 )
 from raycert.oracle.corpus.golden import Contradiction, show
 from raycert.oracle.exact.trace import trace
@@ -114,7 +114,6 @@ def _check(options: dict[str, Any]) -> None:
     if options["golden"] and not options["seeded"]:
         raise click.UsageError("--golden and --no-golden exclude one another")
     check_convention(options["convention"] or "closed")
-    check_writable(options["out"], "--out")
     read = [("--golden", options["golden"])] if options["golden"] else []
     read += [("--out", options["out"])] if (options["out"] / MANIFEST).exists() else []
     for hint, folder in read:
@@ -197,9 +196,8 @@ def _written(
         raise click.ClickException(doubt) from None
     report = keep.form(found, findings, asked)
     if findings or (options["out"] / keep.REPORT).exists():
-        keep.write(options["out"], job.seed, rows, found.looker.hello.format, report)
-    elif not any(options["out"].iterdir()):
-        options["out"].rmdir()
+        with writing(options["out"]):
+            keep.write(options["out"], job.seed, rows, found.looker.hello.format, report)
     return findings
 
 

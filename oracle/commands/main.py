@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from raycert.cases.files import BadFile
-from raycert.oracle.commands.options import BadInput
+from raycert.oracle.commands.options import FULL, LOST, NOT_WRITTEN, BadInput, flush
 
 VERBS: dict[str, dict[str, tuple[str, str]]] = {
     "Certify your tracer": {
@@ -56,7 +56,8 @@ First steps:
                                         one case, derived step by step
 
 Exit status: 0 granted or done, 1 not granted or differences found, 2 bad usage or
-input, 3 the target could not be run or nothing was tested.
+input, 3 the target could not be run or nothing was tested, 4 an output could not be
+written: what was found is printed, what is missing is said last.
 """
 
 
@@ -82,11 +83,28 @@ class Verbs(click.Group):
         return super().resolve_command(ctx, args)
 
     def invoke(self, ctx: click.Context) -> Any:
-        """Do what the verb does; whatever it reads and cannot use ends it with exit status 2."""
+        """Do what the verb does, and say last what it could not write: exit status 4.
+
+        Whatever it reads and cannot use ends it with exit status 2.
+        """
+        lost: list[str] = ctx.meta.setdefault(LOST, [])
         try:
-            return super().invoke(ctx)
+            super().invoke(ctx)
+        except (SystemExit, click.exceptions.Exit):
+            if not lost:
+                raise
         except BadFile as error:
             raise BadInput(str(error)) from None
+        except OSError as error:
+            if error.errno not in FULL:
+                raise
+            lost.append(f"standard output: {error.strerror}")
+        finally:
+            for what in lost:
+                click.echo(f"raycert: not written: {what}", err=True)
+        if lost:
+            flush()
+            raise SystemExit(NOT_WRITTEN)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write the verbs and what they do, importing none of them."""

@@ -16,14 +16,14 @@ from raycert.cases.model import Refused
 from raycert.oracle.client.dialogue import Unusable
 from raycert.oracle.commands.asking import SHAPES, case_options, chosen, count_given
 from raycert.oracle.commands.options import (
+    FILE,
     BadInput,
     aim,
-    check_writable,
     counting,
     limits,
     limits_options,
     stop,
-    write_text,
+    write_out,
 )
 from raycert.oracle.map.legend import summary, to_csv, to_json
 from raycert.oracle.map.raster import UNITS, Inputs, Raster
@@ -87,7 +87,7 @@ Exit status: 0 done; 2 bad usage or input; 3 the target could not be run.
 @click.option(
     "--out",
     "outs",
-    type=click.Path(dir_okay=False, path_type=Path),
+    type=FILE,
     multiple=True,
     required=True,
     help="File: .png, .svg, .json or .csv (repeatable).",
@@ -108,29 +108,29 @@ def draw_map(**options: Any) -> None:
     found = _sampled(_raster(options), show, options)
     if not found.cells:
         raise click.ClickException("interrupted before a cell was done; nothing was written")
-    for write in writers:
-        write(found, _title(options))
     click.echo("\n".join(summary(found)))
-    click.echo(f"wrote {', '.join(map(str, options['outs']))}")
+    title, written = _title(options), []
+    for path, drawn in zip(options["outs"], writers, strict=True):
+        written += [str(path)] if write_out(path, drawn(found, title)) else []
+    click.echo(f"wrote {', '.join(written) or 'nothing'}")
 
 
-def _writer(path: Path) -> Callable[[Map, str], None]:
-    """Return what writes a map, under a title, to the file; refuse now what cannot be written."""
+def _writer(path: Path) -> Callable[[Map, str], str | bytes]:
+    """Return what makes the file of a map under a title; refuse now what cannot be made."""
     suffix = path.suffix.lower()
     if suffix not in (*PICTURES, *DATA):
         known = ", ".join((*PICTURES, *DATA))
         raise click.BadParameter(f"{path}: not one of {known}", param_hint="--out")
-    check_writable(path.parent, "--out")
     if suffix in PICTURES:
         try:
             from raycert.oracle.plots.mapping import save
         except ImportError as error:
             need = 'pictures need matplotlib: pip install "raycert[plots]"'
             raise BadInput(f"{need} ({error})") from None
-        return lambda found, title: save(found, title, path)
+        return lambda found, title: save(found, title, suffix[1:])
     if suffix == ".csv":
-        return lambda found, _: write_text(path, to_csv(found))
-    return lambda found, _: write_text(path, dumps(to_json(found), indent=1) + "\n")
+        return lambda found, _: to_csv(found)
+    return lambda found, _: dumps(to_json(found), indent=1) + "\n"
 
 
 def _raster(options: dict[str, Any]) -> Raster:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import shlex
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.options import FOLDER, repeatable, stop
+from raycert.oracle.commands.options import FOLDER, repeatable, stop, write_out
 
 if TYPE_CHECKING:
     from raycert.oracle.measure.way import Way
@@ -64,13 +64,17 @@ def known(names: Iterable[str], there: Iterable[str], option: str, hint: str = "
 
 
 def write_rows(folder: Path, name: str, form: Any, table: str) -> list[Path]:
-    """Write what was measured as JSON and as CSV; return the paths."""
+    """Write what was measured as JSON and as CSV; return the paths of what is written."""
     import json
 
-    written = [folder / f"{name}.json", folder / f"{name}.csv"]
-    written[0].write_text(json.dumps(form, indent=1, allow_nan=False) + "\n", encoding="ascii")
-    written[1].write_text(table, encoding="ascii")
-    return written
+    text = json.dumps(form, indent=1, allow_nan=False) + "\n"
+    return write_files(folder, {f"{name}.json": text, f"{name}.csv": table})
+
+
+def write_files(folder: Path, files: Mapping[str, str | bytes]) -> list[Path]:
+    """Write files of these names; return the paths of those that are written."""
+    paths = {folder / name: data for name, data in files.items()}
+    return [path for path, data in paths.items() if write_out(path, data)]
 
 
 @contextmanager

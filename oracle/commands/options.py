@@ -6,8 +6,10 @@
     target    the argument's help is TARGETS; `aim(words)` is the target, `spelled(words)` its
               words for a command line; limits_options, and `limits(options)` what they set
     refusals  `stop(message)` ends with 3, `BadInput` with 2; `unknown` says which values come near
-    output    `check_writable` before the work, `write_text` after it, `counting` the progress
-              between; FILE and FOLDER are the types of what is written, KNOWN_* of what is read
+    output    FILE, FILE_OR_DASH and FOLDER are the types of what is written, tried before the
+              work; `write_out` and `writing` after it keep what fails to the end of the verb, which
+              `main` ends with NOT_WRITTEN; `counting` is the progress between
+    input     KNOWN_* are the types of what is read
 
 Another repeatable option is `repeatable("--method", "names", "Only this method")`. Nothing but
 click is loaded before a function is called.
@@ -15,7 +17,10 @@ click is loaded before a function is called.
 
 from __future__ import annotations
 
+import errno
+import os
 import sys
+import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -34,8 +39,6 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 Decorator = Callable[[Function], Function]
 
 PRECISIONS = ("binary64", "binary32")
-FILE = click.Path(dir_okay=False, path_type=Path)
-FOLDER = click.Path(file_okay=False, path_type=Path)
 KNOWN_FILE = click.Path(exists=True, dir_okay=False, path_type=Path)
 KNOWN_FOLDER = click.Path(exists=True, file_okay=False, path_type=Path)
 SECONDS = click.FloatRange(min=0.01, max=86400)
@@ -193,27 +196,82 @@ def spelled(words: tuple[str, ...]) -> tuple[str, ...]:
 # What is written, and what is seen meanwhile.
 
 
-def check_writable(folder: Path, option: str) -> None:
-    """Make the folder if it is missing; refuse the option if no file can be written there."""
-    import tempfile
+NOT_WRITTEN = 4
+"""The exit status of a verb that did its work and could not write all that it was to write."""
+LOST = "raycert: outputs that were not written"
+FULL = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
+
+def check_writable(path: Path) -> None:
+    """Raise `OSError` where a file, or a folder with files, cannot be written; leave no trace."""
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        if not os.access(path, os.W_OK):
+            raise PermissionError(errno.EACCES, os.strerror(errno.EACCES))
+        return
+    place = Path(os.path.realpath(path)) if path.is_symlink() else path.absolute()
+    start = place.parent if place.is_file() else place
+    there = next(folder for folder in (start, *start.parents) if folder.exists())
+    for part in start.relative_to(there).parts:
+        (there / part).exists()  # raises for a name that is too long
+    with tempfile.TemporaryFile(dir=there):
+        pass
+
+
+class Output(click.Path):
+    """The type of what is written: refused if it cannot be, before any work; `-` passes."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if not str(value):
+            self.fail("is the empty name", param, ctx)
+        path = super().convert(value, param, ctx)
+        try:
+            if not (self.allow_dash and str(path) == "-"):
+                check_writable(Path(str(path)))
+        except OSError as error:
+            self.fail(f"cannot write to {str(path)!r:.60}: {error.strerror}", param, ctx)
+        return path
+
+
+FILE = Output(dir_okay=False, path_type=Path)
+FILE_OR_DASH = Output(dir_okay=False, allow_dash=True)
+FOLDER = Output(file_okay=False, path_type=Path)
+
+
+@contextmanager
+def writing(what: Path | str) -> Iterator[None]:
+    """Write something: a failure is kept for the end of the verb, so that it loses nothing else."""
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryFile(dir=folder):
-            pass
+        yield
     except OSError as error:
-        raise click.BadParameter(f"cannot write to {folder}: {error}", param_hint=option) from None
+        context = click.get_current_context(silent=True)
+        if context is None or LOST not in context.meta or error.errno == errno.EPIPE:
+            raise
+        context.meta[LOST].append(f"{what}: {error.strerror or error}")
 
 
-def write_text(out: Path | str, text: str) -> None:
-    """Write a file, whole or not at all; `-` is standard output. What no UTF-8 has becomes `?`."""
-    from raycert.cases.corpus import write_whole
+def write_out(out: Path | str, data: str | bytes, append: bool = False) -> bool:
+    """Write a file, whole or not at all, and return whether that succeeded.
 
-    data = text.encode("utf-8", "replace")
-    if str(out) == "-":
-        click.echo(data, nl=False)
-    else:
-        write_whole(Path(out), data)
+    `-` is standard output. What no UTF-8 has becomes `?`.
+    """
+    from raycert.cases.corpus import append_whole, write_whole
+
+    data = data if isinstance(data, bytes) else data.encode("utf-8", "replace")
+    with writing("standard output" if str(out) == "-" else out):
+        if str(out) == "-":
+            click.echo(data, nl=False)
+        else:
+            (append_whole if append else write_whole)(Path(out), data)
+        return True
+    return False
+
+
+def flush() -> None:
+    """Bring standard output to its end: what it cannot take goes nowhere."""
+    try:
+        sys.stdout.flush()
+    except OSError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 @contextmanager

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.options import FILE, BadInput, check_writable, counting, repeatable
+from raycert.oracle.commands.options import FILE, BadInput, counting, repeatable, write_out
 from raycert.oracle.commands.scenes import answer, needs, read, scene_argument, start
 
 if TYPE_CHECKING:
@@ -81,8 +81,7 @@ def render(scene: str | None, out: Path | None, **options: Any) -> None:
         click.echo(_pixel(read_scene, options["pixel"]))
         return
     needs("numpy", "PIL")
-    out = out or Path(f"{name}-{options['show']}.png")
-    check_writable(out.parent, "--out")
+    out = out or FILE.convert(f"{name}-{options['show']}.png", None, None)
     raise SystemExit(_render(read_scene, scene or "", out, options))
 
 
@@ -106,19 +105,20 @@ def _render(scene: Scene, source: str, out: Path, options: dict[str, Any]) -> in
     # The tracer runs in a process of its own while the picture's packages are loaded here.
     import numpy as np
 
-    from raycert.oracle.plots.heatmap import extremes, of_scene, save, shown
+    from raycert.oracle.plots.heatmap import extremes, of_scene, png, shown
 
     arrays, about = answer(at_work)
     rows = _errors(scene, arrays) if show == "error" else []
     values = np.array(rows) if rows else arrays["values"]
-    save(of_scene(values, show, ", textbook" if tracer == "textbook" else ""), out)
     width, height = scene.size
     words = [f"{width}x{height}", f"{about['hits']} of {width * height} rays hit"]
     if show != "normal" and (ends := extremes(values)):
         words.append(f"{show} {shown(ends[0], *ends)} to {shown(ends[1], *ends)}")
     click.echo(f"{out}: {', '.join(words)}, {time.perf_counter() - began:.2f} s")
     click.echo(f"left out: {', '.join(about['left_out']) or 'nothing'}")
-    return _print_errors(rows, f"{source} --size {size}" if size else source) if rows else 0
+    status = _print_errors(rows, f"{source} --size {size}" if size else source) if rows else 0
+    write_out(out, png(of_scene(values, show, ", textbook" if tracer == "textbook" else "")))
+    return status
 
 
 def _errors(scene: Scene, arrays: dict[str, Any]) -> list[list[float]]:

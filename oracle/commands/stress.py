@@ -8,8 +8,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.measuring import chosen, drawing, end, known, ways_options, write_rows
-from raycert.oracle.commands.options import check_writable, counting, repeatable
+from raycert.oracle.commands.measuring import (
+    chosen,
+    drawing,
+    end,
+    known,
+    ways_options,
+    write_files,
+    write_rows,
+)
+from raycert.oracle.commands.options import counting, repeatable
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -74,8 +82,6 @@ def stress(**options: Any) -> None:
     from raycert.oracle.measure.sweeps import SWEEPS
 
     known(options["sweeps"], SWEEPS, "--sweep")
-    if options["out"] is not None:
-        check_writable(options["out"], "--out")
     every = BESIDE if options["clients"] else [way.name for way in WAYS if way.stress]
     ways, notes = chosen(options["names"] or every, options["clients"])
     sweeps = tuple(SWEEPS[name] for name in dict.fromkeys(options["sweeps"]) or SWEEPS)
@@ -188,7 +194,7 @@ def _draw(found: Stress, sides: Sequence[Sides], folder: Path) -> list[Path]:
     """Write the pictures: a few methods each, and the forward errors of the first ones."""
     from raycert.oracle.measure.curves import notes
     from raycert.oracle.plots.stiffness import draw, pages
-    from raycert.oracle.plots.style import save, styled
+    from raycert.oracle.plots.style import pictures, styled
 
     if not found.grounds:
         return []
@@ -197,7 +203,9 @@ def _draw(found: Stress, sides: Sequence[Sides], folder: Path) -> list[Path]:
     for number, names in enumerate(groups, 1):
         with styled():
             drawn = draw(found, names, sides, notes=notes(found, names))
-            written += save(drawn, folder, "stress" if number == 1 else f"stress-{number}")
+            name = "stress" if number == 1 else f"stress-{number}"
+            written += write_files(folder, pictures(drawn, name))
     with styled():
-        written += save(draw(found, groups[0], field="ulps"), folder, "stress-ulps")
+        ulps = draw(found, groups[0], field="ulps")
+        written += write_files(folder, pictures(ulps, "stress-ulps"))
     return written

@@ -14,13 +14,13 @@ from rich.text import Text
 from raycert.cases.corpus import Corpus
 from raycert.oracle.commands.options import (
     FILE,
-    KNOWN_FOLDER,
+    FOLDER,
     PRECISIONS,
     counting,
     golden_option,
     read,
     repeatable,
-    write_text,
+    write_out,
 )
 from raycert.oracle.zoo import matrix
 from raycert.oracle.zoo.inhabitants import BY_NAME, FAULTS
@@ -50,7 +50,7 @@ WIDE = 100
 @repeatable("--fault", "names", "Only this", metavar="NAME")
 @golden_option
 @click.option("--json", "out", type=FILE, metavar="FILE")
-@click.option("--write-smoke", "folder", type=KNOWN_FOLDER, help=SMOKE)
+@click.option("--write-smoke", "folder", type=FOLDER, help=SMOKE)
 def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: Path | None) -> None:
     """Try planted wrong tracers on the golden rows."""
     if unknown := [name for name in names if name not in BY_NAME]:
@@ -64,21 +64,22 @@ def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: P
         for name in names or BY_NAME:
             lines.append(matrix.line(trials, BY_NAME[name]))
             advance()
-    if out:
-        write_text(out, json.dumps(matrix.form(corpus, lines), indent=1) + "\n")
     console = Console()
     console.print(_table(lines, console.width))
     if names:
         _families(lines, console)
-    raise SystemExit(_summary(corpus, lines, console))
+    status = _summary(corpus, lines, console)
+    if out:
+        write_out(out, json.dumps(matrix.form(corpus, lines), indent=1) + "\n")
+    raise SystemExit(status)
 
 
 def _write_smoke(golden: Path | None, folder: Path) -> None:
     for precision in PRECISIONS:
         with counting(f"trying in {precision}", len(FAULTS)) as advance:
             ids = matrix.chosen(read(precision, golden), advance)
-        write_text(folder / f"{precision}.txt", "".join(f"{id}\n" for id in ids))
         click.echo(f"{precision}: {len(ids)} rows")
+        write_out(folder / f"{precision}.txt", "".join(f"{id}\n" for id in ids))
 
 
 def _table(lines: Sequence[matrix.MatrixLine], width: int) -> Table:

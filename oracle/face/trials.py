@@ -58,7 +58,7 @@ class Certification:
 
         console = Console(width=100, color_system=None, force_terminal=False)
         with console.capture() as capture:
-            report(self.certificate, console, None)
+            report(self.certificate, console)
         return capture.get()
 
     __repr__ = __str__

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cache
-from pathlib import Path
+from io import BytesIO
 
 import numpy as np
 import numpy.typing as npt
@@ -145,8 +145,10 @@ def directions(normals: Array, title: str) -> Image.Image:
     return _with_strip(_enlarged(Image.fromarray(rgb.round().astype(np.uint8))), title)
 
 
-def save(image: Image.Image, path: Path) -> None:
-    image.save(path, format="PNG", compress_level=3)
+def png(image: Image.Image) -> bytes:
+    data = BytesIO()
+    image.save(data, format="PNG", compress_level=3)
+    return data.getvalue()
 
 
 def _enlarged(image: Image.Image) -> Image.Image:

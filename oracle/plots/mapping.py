@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import groupby
 from math import ceil, isinf, log10
-from pathlib import Path
 from textwrap import shorten, wrap
 from typing import Any
 
@@ -40,7 +39,7 @@ from raycert.oracle.map.legend import (
 )
 from raycert.oracle.map.raster import At
 from raycert.oracle.map.sampling import NUMBERS, ORDER, Cell, Kind, Map
-from raycert.oracle.plots.style import FAINT, INK, PAPER, figure, plain, styled, write
+from raycert.oracle.plots.style import FAINT, INK, PAPER, figure, picture, plain, styled
 
 WIDTH, HEIGHT = 10.4, 6.4
 SQUARE = (0.085, 0.115, 0.475, 0.772)
@@ -88,10 +87,10 @@ def draw(found: Map, title: str) -> Figure:
     return drawn
 
 
-def save(found: Map, title: str, path: Path) -> None:
-    """Write the picture of a map as PNG or SVG, by the name of the file; no date is in it."""
+def save(found: Map, title: str, form: str) -> bytes:
+    """Return the picture of a map as PNG or SVG; no date is in it."""
     with styled():
-        write(draw(found, title), path)
+        return picture(draw(found, title), form)
 
 
 def _extent(found: Map) -> tuple[float, float, float, float]:

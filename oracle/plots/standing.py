@@ -78,4 +78,4 @@ def as_svg(draw: Callable[[], Figure]) -> str | None:
             raise
         return None
     with style.styled():
-        return style.as_svg(draw())
+        return style.picture(draw(), "svg").decode()

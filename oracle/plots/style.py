@@ -9,9 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
-from io import StringIO
+from io import BytesIO
 from math import cos, hypot, pi, sin
-from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
@@ -98,25 +97,16 @@ def figure(width: float, height: float) -> Figure:
     return drawn
 
 
-def save(drawn: Figure, folder: Path, name: str) -> list[Path]:
-    """Write a figure as SVG and PNG and return both paths. Within `styled`."""
-    paths = [folder / f"{name}.svg", folder / f"{name}.png"]
-    for path in paths:
-        write(drawn, path)
-    return paths
+def pictures(drawn: Figure, name: str) -> dict[str, bytes]:
+    """Return a figure as the files NAME.svg and NAME.png. Within `styled`."""
+    return {f"{name}.{form}": picture(drawn, form) for form in ("svg", "png")}
 
 
-def write(drawn: Figure, path: Path) -> None:
-    """Write a figure as SVG or PNG, by the name of the file; no date is in it. Within `styled`."""
-    about = UNDATED if path.suffix.lower() == ".svg" else {"Software": "raycert"}
-    drawn.savefig(path, metadata=about, dpi=DPI)
-
-
-def as_svg(drawn: Figure) -> str:
-    """Return a figure as SVG text. Within `styled`."""
-    text = StringIO()
-    drawn.savefig(text, format="svg", metadata=UNDATED)
-    return text.getvalue()
+def picture(drawn: Figure, form: str) -> bytes:
+    """Return a figure as SVG or PNG; no date is in it. Within `styled`."""
+    data, about = BytesIO(), UNDATED if form == "svg" else {"Software": "raycert"}
+    drawn.savefig(data, format=form, metadata=about, dpi=DPI)
+    return data.getvalue()
 
 
 def decades(axis: Any) -> None:

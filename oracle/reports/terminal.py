@@ -21,7 +21,7 @@ STYLES = {
 }
 
 
-def report(certificate: Json, console: Console, out: str | None) -> None:
+def report(certificate: Json, console: Console) -> None:
     """Print a certificate for people. What a client said is printed as text, never as markup."""
     console.print(_solids(certificate))
     console.print(_families(certificate, console.width))
@@ -30,8 +30,6 @@ def report(certificate: Json, console: Console, out: str | None) -> None:
         console.print(Text(line))
     _failures(certificate, console)
     console.print(_verdict(certificate))
-    if out:
-        console.print(f"certificate: {out}", highlight=False, soft_wrap=True)
 
 
 def _table(title: str) -> Table:

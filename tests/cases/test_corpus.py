@@ -156,7 +156,7 @@ def test_a_file_is_written_whole_or_not_at_all(
     def fail(*_: object) -> None:
         raise KeyboardInterrupt
 
-    for name in ("replace", "chmod"):
+    for name in ("open", "replace", "chmod"):
         with monkeypatch.context() as broken:
             broken.setattr(os, name, fail)
             with pytest.raises(KeyboardInterrupt):

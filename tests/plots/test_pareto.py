@@ -18,14 +18,17 @@ from raycert.oracle.measure.clock import Time
 from raycert.oracle.measure.errors import Error
 from raycert.oracle.measure.race import Figures, figures
 from raycert.oracle.plots.pareto import MARK, draw
-from raycert.oracle.plots.style import LOOKS, PAPER, SERIES, apart, figure, plain, save, styled
+from raycert.oracle.plots.style import LOOKS, PAPER, SERIES, apart, figure, pictures, plain, styled
 
 GOOD, LOST = Error(1.5), Error(inf, -1)
 
 
 def plot(rows: list[Figures], folder: Path, name: str, about: str) -> list[Path]:
     with styled():
-        return save(draw(rows, about), folder, name)
+        files = pictures(draw(rows, about), name)
+    for file, data in files.items():
+        (folder / file).write_bytes(data)
+    return [folder / file for file in files]
 
 
 def made(name: str, best: float, errors: list[Error], k: float = 0.5) -> Figures:
@@ -150,7 +153,7 @@ def test_the_users_own_settings_change_nothing(tmp_path: Path) -> None:
         with styled():
             drawn = figure(2, 1)
             drawn.add_axes((0.2, 0.2, 0.7, 0.7)).set_title("x")
-            return save(drawn, tmp_path, name)[1].read_bytes()
+            return pictures(drawn, name)[f"{name}.png"]
 
     plain_settings = picture("one")
     with mpl.rc_context({"font.size": 30, "axes.facecolor": "red"}):

@@ -11,7 +11,7 @@ from raycert.oracle.measure.curves import Itinerary, Stress, run
 from raycert.oracle.measure.facets import Sides
 from raycert.oracle.measure.sweeps import SWEEPS
 from raycert.oracle.plots.stiffness import MOST_LINES, NONE, NOTES, Axis, draw, pages, spaced
-from raycert.oracle.plots.style import as_svg, styled
+from raycert.oracle.plots.style import picture, styled
 
 NAMES = ("textbook", "oracle")
 PLAN = Itinerary(
@@ -90,7 +90,7 @@ def test_forward_errors_are_drawn_without_the_64() -> None:
 
 def test_the_same_report_gives_the_same_bytes() -> None:
     with styled():
-        one, two = (as_svg(draw(report(), NAMES, SIDES, notes=["a note"])) for _ in range(2))
+        one, two = (picture(draw(report(), NAMES, SIDES, notes=["x"]), "svg") for _ in range(2))
     assert one == two
 
 

@@ -30,7 +30,7 @@ from shared.certificates import Json, made
 
 def terminal(certificate: Json) -> str:
     console = Console(file=StringIO(), width=120, force_terminal=False)
-    report(certificate, console, None)
+    report(certificate, console)
     assert isinstance(console.file, StringIO)
     return console.file.getvalue()
 
