@@ -14,15 +14,17 @@ start inside, or on the boundary, shows as a first interval that begins at 0.
 from __future__ import annotations
 
 import json
+import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from math import isinf, isnan
+from functools import cache
+from math import inf, isinf, isnan
 from typing import Any, BinaryIO, Literal, TypeVar
 
 from raycert.cases.formats import BINARY64, FORMATS, SPELLINGS, Format, Spelling, parse, spell
 from raycert.cases.forms import question, read_ray, read_solid
-from raycert.cases.model import SOLIDS, Ray, Refused, Solid
+from raycert.cases.model import SOLIDS, Ray, Refused, Solid, leaves
 
 VERSION = 1
 Answers = Literal["intervals", "first", "any"]
@@ -39,12 +41,42 @@ TOUCHES = ("tangent", "wall", "cap", "rim", "start")
 Pairs = tuple[tuple[float, float], ...]
 Intersect = Callable[[Solid, Ray], Iterable[tuple[float, float]]]
 T = TypeVar("T", bound=float)
+WORDS = 1000
+"""Characters of a text of others that are kept: a reason, an exception, a name."""
+LONG = 4096
+"""A line of more bytes is looked at for its pairs before it is read."""
 ask = question
 """The line that asks one case."""
 
 
 class BadLine(ValueError):
     """A line that is not the message it has to be; the text says what is wrong with it."""
+
+
+class TooMany(BadLine):
+    """An answer, to the question `id`, of more pairs than one may have; the others are good."""
+
+    def __init__(self, id: str, most: int) -> None:
+        super().__init__(f"has more than {most} pairs, and {most} is the most for this solid")
+        self.id = id
+
+
+def most_pairs(solid: Solid) -> int:
+    """Return how many pairs an answer may have; one with more is malformed, and is not read.
+
+    The right list has at most one for each leaf. The rest is room for what is wrong and worth
+    showing, so that nobody's answers take more memory, time or paper than their questions deserve.
+    """
+    return 16 + 4 * sum(1 for _ in leaves(solid))
+
+
+def cut(text: str, most: int = WORDS) -> str:
+    """Return a text of others as far as it is kept; what is cut says so.
+
+    >>> cut("abcdef", 4)
+    'abcd... (6 characters)'
+    """
+    return text if len(text) <= most else f"{text[:most]}... ({len(text)} characters)"
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,6 +180,9 @@ def _hello(message: dict[str, Any], line: bytes) -> Hello:
     for name in ("version", "convention"):
         if name in known and not isinstance(known[name], str):
             raise BadLine(f"hello.{name} is not a string: {known[name]!r:.40}")
+    for name in ("name", "version", "convention"):
+        if len(known.get(name, "")) > WORDS:
+            raise BadLine(f"hello.{name} has more than {WORDS} characters: {known[name]!r:.40}")
     convention(known.get("convention", "closed"))
     return Hello(**known)
 
@@ -159,7 +194,7 @@ def _solids(value: object) -> tuple[str, ...]:
         if not isinstance(kind, str) or kind not in SOLIDS:
             known = ", ".join(SOLIDS)
             raise BadLine(f"hello.solids has an unknown type {kind!r:.40} (known: {known})")
-    return tuple(value)
+    return tuple(dict.fromkeys(value))
 
 
 def _tolerance(value: object) -> float:
@@ -190,12 +225,14 @@ def convention(text: str) -> dict[str, bool]:
     return {kind: (base == "closed") != (kind in names) for kind in TOUCHES}
 
 
-def read_reply(line: bytes, hello: Hello) -> Reply:
+def read_reply(line: bytes, hello: Hello, most: float = inf) -> Reply:
     """Return the answer on a line, numbers rounded to the client's precision.
 
-    Raises `BadLine` where the line is not of the form that the hello promised. Whether the numbers
-    make a well-formed list is for the judge.
+    Raises `BadLine` where the line is not of the form that the hello promised, and `TooMany` where
+    only its pairs are too many. Whether the numbers make a well-formed list is for the judge.
     """
+    if len(line) > LONG and most < inf and (flood := _more_pairs_than(int(most)).match(line)):
+        raise TooMany(flood["id"].decode("utf-8", "replace"), int(most))
     message = decode(line)
     id = message.get("id")
     if not isinstance(id, str):
@@ -205,7 +242,10 @@ def read_reply(line: bytes, hello: Hello) -> Reply:
     if "error" in message:
         return Reply(id, error=_reason(message["error"], line))
     if hello.answers == "intervals":
-        return Reply(id, intervals=_pairs(message, hello, line))
+        pairs = _pairs(message, hello, line, most)
+        if len(pairs) > most:
+            raise TooMany(id, int(most))
+        return Reply(id, intervals=pairs)
     if hello.answers == "any":
         if not isinstance(message.get("hit"), bool):
             raise BadLine(f"has no hit (true or false): {_shown(line)}")
@@ -216,10 +256,20 @@ def read_reply(line: bytes, hello: Hello) -> Reply:
     return Reply(id, first=None if value is None else _number(value, hello, line))
 
 
+@cache
+def _more_pairs_than(most: int) -> re.Pattern[bytes]:
+    """Return what matches the begin of a reply that goes on after so many pairs.
+
+    To read all of a long line, to be told then that it is too long, takes a hundred times as long.
+    """
+    head = rb'\s*\{\s*"id"\s*:\s*"(?P<id>[^"\\]*)"\s*,\s*"intervals"\s*:\s*\['
+    return re.compile(head + rb"(?:[^\[\]]*\[[^\[\]]*\]){%d}\s*,\s*\[" % most)
+
+
 def _reason(value: object, line: bytes) -> str:
     if not isinstance(value, str):
         raise BadLine(f"gives a reason that is not a string: {_shown(line)}")
-    return value[:1000]
+    return cut(value)
 
 
 def _number(value: object, hello: Hello, line: bytes) -> float:
@@ -231,13 +281,14 @@ def _number(value: object, hello: Hello, line: bytes) -> float:
         raise BadLine(f"has a bad number ({error}): {_shown(line)}") from None
 
 
-def _pairs(message: dict[str, Any], hello: Hello, line: bytes) -> Pairs:
+def _pairs(message: dict[str, Any], hello: Hello, line: bytes, most: float) -> Pairs:
+    """Return the pairs; of more than `most` only so many that this shows."""
     pairs = message.get("intervals")
     if not isinstance(pairs, list):
         raise BadLine(f"has no intervals (a list of pairs): {_shown(line)}")
     plain = hello.numbers == "decimal" and hello.precision == "binary64"
     read = []
-    for pair in pairs:
+    for pair in pairs if len(pairs) <= most else pairs[: int(most) + 1]:
         if not isinstance(pair, list) or len(pair) != 2:
             raise BadLine(f"has an interval that is not a pair of numbers: {_shown(line)}")
         a, b = pair

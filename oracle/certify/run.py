@@ -211,9 +211,13 @@ def smoke(plan: Plan, hello: Hello, watch: Watch) -> list[str]:
     said = adapter_faults(cases, outcomes)
     for line in said:
         watch.note(line)
-    if cases and all(isinstance(outcome, Failure) for outcome in outcomes.values()):
+    if cases and all(_unanswered(outcome) for outcome in outcomes.values()):
         raise Unsuitable("none of the easy cases was answered, so nothing was tested")
     return said
+
+
+def _unanswered(outcome: Outcome) -> bool:
+    return isinstance(outcome, Failure) and outcome.kind != "malformed"
 
 
 class _Answers:

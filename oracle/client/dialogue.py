@@ -21,8 +21,10 @@ from raycert.cases.protocol import (
     BadLine,
     Hello,
     Reply,
+    TooMany,
     ask,
     encode,
+    most_pairs,
     read_hello,
     read_reply,
 )
@@ -222,19 +224,26 @@ class PipeDialogue(Dialogue):
             seen = _bad_hello(self._name, str(error), first, self._process.errors())
             raise Unusable(seen) from None
 
-    def _match(self, line: bytes) -> Iterable[tuple[Question, Reply]]:
+    def _match(self, line: bytes) -> Iterable[tuple[Question, Outcome]]:
         if not self._owed:
             raise Broken(too_much(line))
         id, question = self._owed[0]
-        try:
-            reply = read_reply(line, self.hello)
-        except BadLine as error:
-            raise Broken(Failure("bad-line", f"the line {error}", shown(line, 1000))) from None
-        if reply.id != id:
-            raise Broken(self._wrong_id(reply.id, id, line))
+        given, outcome = self._read(line, question)
+        if given != id:
+            raise Broken(self._wrong_id(given, id, line))
         self._owed.popleft()
         self.last, self._last_id = question, id
-        return ((question, replace(reply, id=question.id)),)
+        return ((question, outcome),)
+
+    def _read(self, line: bytes, question: Question) -> tuple[str, Outcome]:
+        """Return the id on a line, and the outcome that it is of the question next in turn."""
+        try:
+            reply = read_reply(line, self.hello, most_pairs(question.solid))
+        except TooMany as error:
+            return error.id, Failure("malformed", f"the answer {error}: {shown(line, 80)!r}")
+        except BadLine as error:
+            raise Broken(Failure("bad-line", f"the line {error}", shown(line, 1000))) from None
+        return reply.id, replace(reply, id=question.id)
 
     def _wrong_id(self, subject: str, truth: str, line: bytes) -> Failure:
         detail = f"answered id {subject[:40]!r} where {truth!r} was next"

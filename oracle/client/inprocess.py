@@ -15,7 +15,7 @@ from dataclasses import dataclass, fields
 from typing import Any, Literal, TypeVar
 
 from raycert.cases.model import SOLIDS, Ray, Solid, Tree
-from raycert.cases.protocol import Answers, BadLine, Hello, Reply, read_hello
+from raycert.cases.protocol import Answers, BadLine, Hello, Reply, cut, most_pairs, read_hello
 from raycert.oracle.client.dialogue import Dialogue, Limits, Outcome, Question, Unusable, too_much
 from raycert.oracle.client.process import Broken, Failure, Process, shown
 
@@ -53,7 +53,7 @@ class WorkerDialogue(Dialogue):
         try:
             return read_hello(first)
         except BadLine:
-            raise Unusable(json.loads(first)["unusable"]) from None
+            raise Unusable(_unusable(first, self._spec)) from None
 
     def _message(self, questions: list[Question]) -> bytes:
         self._owed.extend((question.id, question) for question in questions)
@@ -67,7 +67,7 @@ class WorkerDialogue(Dialogue):
             raise Broken(too_much(line))
         for answer in answers:
             _, question = self._owed[0]
-            outcome = _outcome(question.id, answer, self.hello.answers)
+            outcome = _outcome(question, answer, self.hello.answers)
             if outcome is None:
                 raise Broken(_spoiled(line))
             self._owed.popleft()
@@ -84,14 +84,29 @@ class WorkerDialogue(Dialogue):
         return answers
 
 
-def _outcome(id: str, answer: Any, form: Answers) -> Outcome | None:
-    """Return the outcome that an answer of the worker is; None if it cannot be one."""
+def _unusable(first: bytes, spec: str) -> str:
+    """Return what the first line of a worker says that is not a hello."""
+    try:
+        return str(json.loads(first)["unusable"])
+    except (ValueError, RecursionError, KeyError, TypeError):
+        return f"loading {spec!r} spoiled the pipe of its worker, which wrote {shown(first)!r}."
+
+
+def _outcome(question: Question, answer: Any, form: Answers) -> Outcome | None:
+    """Return the outcome that an answer of the worker is; None if it cannot be one.
+
+    The worker keeps to the limits; code that writes in its place need not.
+    """
+    id = question.id
     try:
         if isinstance(answer, dict):
-            if "bad" in answer:
-                return Failure("bad-line", answer["bad"])
-            return Reply(id, **answer)
+            [(kind, text)] = answer.items()
+            if kind in ("bad-line", "malformed"):
+                return Failure(kind, cut(text))
+            return Reply(id, **{kind: cut(text)})
         if form == "intervals":
+            if len(answer) > most_pairs(question.solid):
+                return None
             return Reply(id, intervals=tuple([(float(a), float(b)) for a, b in answer]))
         if form == "any":
             return Reply(id, hit=bool(answer))

@@ -18,12 +18,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import IO, Literal
 
-Kind = Literal["crash", "hang", "bad-line", "wrong-id", "unrepeatable"]
+Kind = Literal["crash", "hang", "bad-line", "wrong-id", "malformed", "unrepeatable"]
 
 CHUNK = 1 << 16
 CHUNKS = 64
 """At most CHUNKS * CHUNK bytes (4 MiB) of output wait for the owner; then the program waits."""
-TAIL = 4096
+TAIL = 1500
 """How many of the last bytes of standard error are kept."""
 SLICE = 0.2
 """How often, in seconds, a silent program is asked whether it still lives."""
@@ -35,7 +35,10 @@ GRACE = 0.5
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """What a program did instead of answering. `line` is the line at fault, cut, where one is."""
+    """What a program did instead of answering. `line` is the line at fault, cut, where one is.
+
+    `malformed` is an answer, of too many pairs to be read.
+    """
 
     kind: Kind
     detail: str
@@ -67,6 +70,7 @@ class Process:
         self._line = line
         self._tail = bytearray()
         self._errors = bytearray()
+        self._flood = 0
         self._deaf = False
         self._gone = False
         self._in: queue.Queue[bytes] = queue.Queue(CHUNKS)
@@ -134,9 +138,11 @@ class Process:
             return f"was killed by signal {-code}"
 
     def errors(self) -> str:
-        """Return the last lines of standard error, or nothing."""
+        """Return the last lines of standard error, or nothing; what is cut says so."""
         text = bytes(self._errors).decode("utf-8", "replace").strip()
-        return "\n".join(text.splitlines()[-10:])
+        lines = text.splitlines()
+        before = "" if self._flood <= TAIL and len(lines) <= 10 else f"(of {self._flood} bytes) ..."
+        return before + "\n".join(lines[-10:])
 
     def kill(self) -> None:
         """Leave nothing behind: kill the group, reap the program, end the threads."""
@@ -219,13 +225,15 @@ class Process:
         with pipe, contextlib.suppress(OSError):
             while chunk := os.read(pipe.fileno(), CHUNK):
                 self._in.put(chunk)
-                time.sleep(GATHER)
+                if len(chunk) < CHUNK:  # of a flood more waits already
+                    time.sleep(GATHER)
         self._in.put(b"")
 
     def _drain(self, pipe: IO[bytes]) -> None:
         # Read without a bound, so that a flood of messages never blocks the program.
         with pipe, contextlib.suppress(OSError):
             while chunk := os.read(pipe.fileno(), CHUNK):
+                self._flood += len(chunk)
                 self._errors = (self._errors + chunk)[-TAIL:]
 
     def _write(self, pipe: IO[bytes]) -> None:

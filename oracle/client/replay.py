@@ -208,7 +208,7 @@ class Replay:
     def _settle(self, question: Question, outcome: Outcome) -> None:
         """Record an outcome; a later one replaces an earlier one."""
         self._outcomes[question.id] = outcome
-        if isinstance(outcome, Failure):
+        if isinstance(outcome, Failure) and outcome.kind != "malformed":
             self._worst = outcome
             self._in_a_row += 1
             self._on_progress(len(self._outcomes))

@@ -192,6 +192,8 @@ def _saying(failure: Failure) -> str:
                 f"It does not give the id back: {seen}. Copy `id`, a string, from each question "
                 "to its answer, and answer in order, one line each."
             )
+        case "malformed":
+            return f"Its answers have too many pairs: {seen}."
     return _of_bad_line(failure)
 
 

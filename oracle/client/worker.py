@@ -7,13 +7,13 @@ Out: lines of JSON. The first is {"hello": ...} or {"unusable": why}; every othe
      last that were sent, so that neither a line for each nor a long silence costs anything.
 
 An answer is what is promised, a list of pairs, a first hit or a truth value, or else an object
-with the one key `error`, `unsupported` or `bad`. The lines are JSON, not pickles, because the code
+with one key: `error`, `unsupported`, `bad-line` or `malformed`. The lines are JSON, not pickles, because the code
 may have spoiled the memory of the process that writes them. The code sees an empty standard input,
 and what it prints goes to standard error.
 
 What a call may return, and the answer that it means; any value gets an outcome:
 
-    intervals   an iterable of pairs (enter, leave), at most `MOST`; a NumPy array is one
+    intervals   an iterable of pairs (enter, leave), up to `most_pairs`; a NumPy array is one
     first       a number, or None for a miss
     any         True or False
 
@@ -42,7 +42,17 @@ from typing import BinaryIO, SupportsFloat
 from raycert.cases.formats import Format
 from raycert.cases.model import SOLIDS, Ray, Solid, Tree, nodes, type_of
 from raycert.cases.numbers import leaf_numbers
-from raycert.cases.protocol import VERSION, BadLine, Hello, Pairs, Reply, read_hello, write_hello
+from raycert.cases.protocol import (
+    VERSION,
+    BadLine,
+    Hello,
+    Pairs,
+    Reply,
+    cut,
+    most_pairs,
+    read_hello,
+    write_hello,
+)
 from raycert.oracle.client.dialogue import silence
 from raycert.oracle.client.inprocess import read_batch
 from raycert.oracle.client.process import Failure
@@ -50,8 +60,6 @@ from raycert.oracle.client.process import Failure
 FLUSH = 0.005
 LONGEST = 1 << 18
 """A line is ended once it has so many characters; one answer more goes into it."""
-MOST = 4096
-"""No list has more pairs than this: that is more than any question asks for."""
 ROOM = 64
 """How many pairs there is room for at first in what a library writes to."""
 CODES = {name: code for code, name in enumerate(SOLIDS, 1)}
@@ -65,6 +73,13 @@ class CannotLoad(Exception):
 
 class NoAnswer(ValueError):
     """A value that is not of the promised form; the text says what it is."""
+
+
+class TooMany(NoAnswer):
+    """A list of more pairs than an answer may have."""
+
+    def __init__(self, count: str, most: int) -> None:
+        super().__init__(f"{count} pairs, and {most} is the most for this solid")
 
 
 class LibraryError(Exception):
@@ -113,7 +128,7 @@ def _answer(batch: Iterable[tuple[Solid, Ray]], loaded: Loaded, answers: BinaryI
 
 def _write(outcome: Reply | Failure) -> str:
     if isinstance(outcome, Failure):
-        return json.dumps({"bad": outcome.detail})
+        return json.dumps({outcome.kind: outcome.detail})
     if quiet := silence(outcome):
         return json.dumps(dict([quiet]))
     told = (outcome.intervals, outcome.hit, outcome.first)
@@ -138,7 +153,7 @@ class Loaded:
 
     def __call__(self, solid: Solid, ray: Ray) -> Reply | Failure:
         """Return the answer to a question, as a reply without an id."""
-        return outcome(partial(self.raw, solid, ray), self.hello)
+        return outcome(partial(self.raw, solid, ray), self.hello, most_pairs(solid))
 
 
 def load_callable(spec: str) -> Loaded:
@@ -266,9 +281,9 @@ class Library:
                 raise NoAnswer(f"{count} from raycert_intersect, which has to return 0 or 1")
             hit = self._out[0] if count else None
             return hit if self._answers == "first" else bool(count)
+        if count > (most := most_pairs(solid)):
+            raise TooMany(str(count), most)
         if count > self._room:  # it told how many there are, and wrote only what had room
-            if count > MOST:
-                raise NoAnswer(f"more than {MOST} intervals: {count}")
             self._make_room(count)
             again = self._call(words, numbers, ray)
             if again != count:
@@ -300,16 +315,17 @@ KINDS: dict[str, Callable[[str], Loaded]] = {"callable": load_callable, "library
 # Values: what a call returned, as the reply that it means.
 
 
-def outcome(call: Callable[[], object], hello: Hello) -> Reply | Failure:
+def outcome(call: Callable[[], object], hello: Hello, most: int) -> Reply | Failure:
     """Return what a call answers, with no id. Never raises, but what is no `Exception`.
 
     `NotImplementedError` is the reply `unsupported`, another exception the reply `error`, a value
     that is not of the form that the hello promises a failure.
     """
     try:
-        return read(call(), hello)
+        return read(call(), hello, most)
     except NoAnswer as error:
-        return Failure("bad-line", f"it returned {error}")
+        kind = "malformed" if isinstance(error, TooMany) else "bad-line"
+        return Failure(kind, f"it returned {error}")
     except NotImplementedError as error:
         return Reply("", unsupported=described(error))
     except Exception as error:
@@ -323,13 +339,16 @@ def described(error: BaseException) -> str:
     except Exception:
         text = ""
     kind = type(error).__name__
-    return (f"{kind}: {text}" if text else kind)[:1000]
+    return cut(f"{kind}: {text}" if text else kind)
 
 
-def read(value: object, hello: Hello) -> Reply:
-    """Return the reply that a value means, with no id. May raise `NoAnswer`, or anything."""
+def read(value: object, hello: Hello, most: int) -> Reply:
+    """Return the reply that a value means, with no id; of up to `most` pairs.
+
+    May raise `NoAnswer`, or anything.
+    """
     if hello.answers == "intervals":
-        return Reply("", intervals=_pairs(value, hello.format))
+        return Reply("", intervals=_pairs(value, hello.format, most))
     if hello.answers == "first":
         return Reply("", first=None if value is None else number(value, hello.format))
     if isinstance(value, bool):
@@ -339,12 +358,12 @@ def read(value: object, hello: Hello) -> Reply:
     raise NoAnswer(f"{in_words(value)}, and not True or False")
 
 
-def _pairs(value: object, fmt: Format) -> Pairs:
+def _pairs(value: object, fmt: Format, most: int) -> Pairs:
     if isinstance(value, str | bytes | dict) or not hasattr(value, "__iter__"):
         raise NoAnswer(f"{in_words(value)}, and not a list of pairs (an empty one is a miss)")
-    pairs = tuple([_pair(pair, fmt) for pair in islice(value, MOST + 1)])
-    if len(pairs) > MOST:
-        raise NoAnswer(f"more than {MOST} intervals")
+    pairs = tuple([_pair(pair, fmt) for pair in islice(value, most + 1)])
+    if len(pairs) > most:
+        raise TooMany("more", most)
     return pairs
 
 

@@ -210,7 +210,7 @@ def test_whether_a_list_is_well_formed_is_not_asked_here():
     ("text", "reply"),
     [
         (line(id="7", unsupported="no caps"), Reply("7", unsupported="no caps")),
-        (line(id="7", error="x" * 5000), Reply("7", error="x" * 1000)),
+        (line(id="7", error="x" * 5000), Reply("7", error="x" * 1000 + "... (5000 characters)")),
         (line(id="7", intervals=[], took=3), Reply("7", intervals=())),
     ],
 )

@@ -152,9 +152,8 @@ def test_a_line_over_the_limit_is_refused_though_it_comes_whole():
     assert "more than 150 bytes" in failures(ask(150))[3].detail
 
 
-@pytest.mark.parametrize("text", ["nan", "many"])
-def test_a_bad_list_in_the_promised_form_is_left_to_the_judge(text: str):
-    outcome = run(command("raw", text), questions(6), Limits(case=2.0)).outcomes["family/3"]
+def test_a_bad_list_in_the_promised_form_is_left_to_the_judge():
+    outcome = run(command("raw", "nan"), questions(6), Limits(case=2.0)).outcomes["family/3"]
     assert isinstance(outcome, Reply)
     assert outcome.intervals is not None
 

@@ -19,6 +19,8 @@ elif kind == "nameless":
 elif kind == "deep":
     print('{"hello": 1, "name": "x", "precision": ' + "[" * int(sys.argv[2]), end="")
     print("]" * int(sys.argv[2]) + "}")
+elif kind == "long":
+    say(HELLO | {"name": "x" * 500_000})
 elif kind == "segfault":
     import os
     import signal

@@ -36,6 +36,19 @@ def crashes(solid: Any, ray: Any) -> Any:
     return steady(solid, ray)
 
 
+def silly(solid: Any, ray: Any) -> Any:
+    return "x" * 10_000_000
+
+
+def endless(solid: Any, ray: Any) -> Any:
+    while True:
+        yield (0.0, 1.0)
+
+
+def fails(solid: Any, ray: Any) -> Any:
+    raise ValueError("x" * 10_000_000)
+
+
 HUGE = 1 << 3_000_000
 
 

@@ -15,6 +15,7 @@ TEXTS = {
     "deep-reason": '{{"id": "{id}", "error": ' + "[" * 900 + "]" * 900 + "}}",
     "million": '{{"id": "{id}", "intervals": [' + "[0,1]," * 1_000_000 + "[0,1]]}}",
     "many": '{{"id": "{id}", "intervals": [' + "[0,1]," * 100_000 + "[0,1]]}}",
+    "reason": '{{"id": "{id}", "error": "' + "x" * 900_000 + '"}}',
     "utf-8": '{{"id": "{id}", "intervals": [[\xff, 1]]}}',
     "long": '{{"id": "{id}", "intervals": []' + " " * 200 + "}}",
     "blank": "",

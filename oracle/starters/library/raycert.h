@@ -58,7 +58,8 @@ enum {
  * Pairs enter, leave are sorted and disjoint, 0 <= enter <= leave; the last leave may be INFINITY.
  * No intersection is 0 pairs. Where there are more pairs than room, nothing beyond the room is
  * written, and the number of all is returned: the same question is then asked again with as much
- * room, up to 4096 pairs. Or it returns RAYCERT_UNSUPPORTED or RAYCERT_ERROR.
+ * room; more than 16, and 4 for each leaf of the solid, are refused. Or it returns
+ * RAYCERT_UNSUPPORTED or RAYCERT_ERROR.
  *
  * A tracer whose hello says "answers": "first" writes the one number t to out[0] and returns 1, or
  * returns 0 for a miss. With "answers": "any" it returns 1 for a hit and 0 for none, and writes
