@@ -7,9 +7,9 @@ Out: lines of JSON. The first is {"hello": ...} or {"unusable": why}; every othe
      last that were sent, so that neither a line for each nor a long silence costs anything.
 
 An answer is what is promised, a list of pairs, a first hit or a truth value, or else an object
-with one key: `error`, `unsupported`, `bad-line` or `malformed`. The lines are JSON, not pickles, because the code
-may have spoiled the memory of the process that writes them. The code sees an empty standard input,
-and what it prints goes to standard error.
+with one key: `error`, `unsupported`, `bad-line` or `malformed`. The lines are JSON, not pickles,
+because the code may have spoiled the memory of the process that writes them. The code sees an
+empty standard input, and what it prints goes to standard error.
 
 What a call may return, and the answer that it means; any value gets an outcome:
 

@@ -1,4 +1,4 @@
-"""What a target may do, and what is said of it: the table of oracle/client/README.md, line by line."""
+"""What a target may do, and what is said of it: the table on the chapter's page, line by line."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from raycert.oracle.client.target import target
 from shared.places import CLIENTS, TESTS
 
 CAN = Cylinder((0, 0, 0), (0, 0, 1), 1)
+SHORT = Limits(hello=2.0, case=0.3)
 PAGE = TESTS.parent / "oracle" / "client" / "README.md"
 
 
@@ -32,7 +33,7 @@ class Line:
     tells: str = ""
     most: int = 300
     """Characters that are kept of it, in all."""
-    limits: Limits = Limits(hello=2.0, case=0.3)
+    limits: Limits = SHORT
 
 
 def pipe(name: str, *words: str) -> tuple[str, ...]:
