@@ -103,7 +103,8 @@ def _outcome(question: Question, answer: Any, form: Answers) -> Outcome | None:
             [(kind, text)] = answer.items()
             if kind in ("bad-line", "malformed"):
                 return Failure(kind, cut(text))
-            return Reply(id, **{kind: cut(text)})
+            reason: dict[str, Any] = {kind: cut(text)}
+            return Reply(id, **reason)
         if form == "intervals":
             if len(answer) > most_pairs(question.solid):
                 return None

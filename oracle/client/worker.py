@@ -55,7 +55,7 @@ from raycert.cases.protocol import (
 )
 from raycert.oracle.client.dialogue import silence
 from raycert.oracle.client.inprocess import read_batch
-from raycert.oracle.client.process import Failure
+from raycert.oracle.client.process import Failure, Kind
 
 FLUSH = 0.005
 LONGEST = 1 << 18
@@ -324,7 +324,7 @@ def outcome(call: Callable[[], object], hello: Hello, most: int) -> Reply | Fail
     try:
         return read(call(), hello, most)
     except NoAnswer as error:
-        kind = "malformed" if isinstance(error, TooMany) else "bad-line"
+        kind: Kind = "malformed" if isinstance(error, TooMany) else "bad-line"
         return Failure(kind, f"it returned {error}")
     except NotImplementedError as error:
         return Reply("", unsupported=described(error))
