@@ -130,11 +130,11 @@ def read_corpus(precision: str = "binary64", folder: Path = GOLDEN) -> Corpus:
         if not name.startswith(f"{precision}/"):
             continue
         data = golden_file(folder, name, entry)
-        for row in decode_rows(data, FORMATS[precision], name):
+        for row in decode_rows(data, FORMATS[precision], str(folder / name)):
             if row.id in seen:
-                raise BadFile(f"{name}: the id {row.id} occurs twice")
+                raise BadFile(f"{folder / name}: the id {row.id} occurs twice")
             if name != f"{precision}/{row.family}.jsonl":
-                raise BadFile(f"{name}: the id {row.id} is of another family")
+                raise BadFile(f"{folder / name}: the id {row.id} is of another family")
             seen.add(row.id)
             rows.append(row)
     digest = hashlib.sha256(read_file(folder / MANIFEST, regular=True)).hexdigest()

@@ -57,6 +57,8 @@ from raycert.oracle.client.dialogue import silence
 from raycert.oracle.client.inprocess import read_batch
 from raycert.oracle.client.process import Failure, Kind
 
+OWNER = os.getpid()
+"""The process that is asked."""
 FLUSH = 0.005
 LONGEST = 1 << 18
 """A line is ended once it has so many characters; one answer more goes into it."""
@@ -136,6 +138,8 @@ def _write(outcome: Reply | Failure) -> str:
 
 
 def _send(answers: BinaryIO, line: str) -> None:
+    if os.getpid() != OWNER:  # a copy that the code has made by `fork` answers nothing
+        os._exit(0)
     rest = memoryview(line.encode("ascii") + b"\n")
     while rest:  # a raw pipe may take less than it is given
         rest = rest[answers.write(rest) :]

@@ -132,6 +132,8 @@ def _vector(word: str, path: str, fmt: Format, rounded: list[Fact]) -> list[floa
 def _number(text: str, path: str, fmt: Format, rounded: list[Fact]) -> float:
     """Return the number of the format nearest to a text; note it in `rounded` if it is another."""
     try:
+        if not text.isascii() or set(text) & set("_ \t\n"):  # Python reads those in a number
+            raise ValueError
         number = float.fromhex(text) if "x" in text.lower() else float(text)
     except (ValueError, OverflowError):
         hint = "write a decimal such as 0.1 or a hex float such as 0x1.8p-3"
@@ -144,13 +146,13 @@ def _number(text: str, path: str, fmt: Format, rounded: list[Fact]) -> float:
         raise Refused(path, f"is beyond {fmt.name}: {text!r:.40}")
     if Fraction(number) != exact or (not number and any(c in "123456789" for c in text[:40])):
         value = Fraction(number)
-        rounded.append(Fact(f"{path} {text.strip():.24}", dyadic(value), about(value, 24)))
+        rounded.append(Fact(f"{path} {text:.24}", dyadic(value), about(value, 24)))
     return number
 
 
 def _exactly(text: str) -> Fraction:
     """Return what a decimal or a hex float spells, whose size is that of a binary64 number."""
-    text = text.strip().lower().replace("_", "")
+    text = text.lower()
     if "x" not in text:
         return Fraction(text)
     mantissa, _, power = text.replace("0x", "").partition("p")

@@ -108,6 +108,52 @@ def test_a_module_that_fails_on_import(
         greet(target(["bad:f"]), Limits(hello=0.5 if "sleep" in text else 10))
 
 
+JUNK = """import contextlib, os
+for fd in range(3, 20):
+    with contextlib.suppress(OSError):
+        os.write(fd, b"junk{0}")
+def f(solid, ray): return []
+"""
+PRINTS = """import os, subprocess, sys
+def speak():
+    print("one", flush=True)
+    os.write(1, b"two\\n")
+    subprocess.run([sys.executable, "-c", "print('three')"])
+speak()
+def f(solid, ray):
+    speak()
+    return [(ray.origin[0], ray.origin[0] + 1)]
+"""
+FORKS = """import os
+{0}
+def f(solid, ray):
+    if ray.origin[0] == 2:
+        os.fork()
+    return [(ray.origin[0], ray.origin[0] + 1)]
+"""
+
+
+@pytest.mark.parametrize("end", ["\\n", ""])
+def test_a_module_that_writes_into_the_pipe_of_its_worker_is_told(
+    end: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Once that was the traceback of a reader of JSON."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "bad.py").write_text(JUNK.format(end))
+    with pytest.raises(Unusable, match=r"'bad:f' spoiled the pipe of .*, which wrote 'junk"):
+        greet(target(["bad:f"]))
+
+
+@pytest.mark.parametrize("text", [PRINTS, FORKS.format(""), FORKS.format("os.fork()")])
+def test_what_code_prints_and_what_it_forks_is_kept_apart(
+    text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A copy of the worker took its questions once, and answered some of them twice."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "loud.py").write_text(text)
+    assert failures(run(target(["loud:f"]), questions(4), SHORT)) == {}
+
+
 def test_folders_of_the_names_of_ours_are_no_trouble(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
