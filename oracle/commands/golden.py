@@ -13,6 +13,7 @@ from raycert.oracle.commands.options import FOLDER, KNOWN_FOLDER, counting, writ
 from raycert.oracle.corpus.adopt import sources
 from raycert.oracle.corpus.golden import RELEASE, USUAL, Contradiction, compare
 from raycert.oracle.corpus.golden import write as write_files
+from raycert.oracle.corpus.lock import locked
 
 folder_option = click.option(
     "--golden",
@@ -46,12 +47,12 @@ def write(folder: Path | None, corpus: Path | None, release: bool) -> None:
     The witnesses by definition and by enclosure check each row. A row on which one disagrees is
     not written, and neither is anything else.
     """
-    target, families = _place(folder, corpus)
+    target = _place(folder, corpus)
     FOLDER.convert(target, None, None)
     try:
-        with writing(target), counting("computing") as advance:
+        with writing(target), locked(target), counting("computing") as advance:
             witnesses = RELEASE if release else USUAL
-            files = write_files(target, families, lambda _: advance(), witnesses)
+            files = write_files(target, _families(corpus), lambda _: advance(), witnesses)
             rows = sum(data.count(b"\n") for data in files.values())
             click.echo(f"{rows} rows in {len(files)} files written to {target}")
     except Contradiction as error:
@@ -63,11 +64,11 @@ def write(folder: Path | None, corpus: Path | None, release: bool) -> None:
 @corpus_option
 def check(folder: Path | None, corpus: Path | None) -> None:
     """Compute every row and compare bytes and values with the files; exit 1 on any difference."""
-    target, families = _place(folder, corpus)
+    target = _place(folder, corpus)
     if not target.is_dir():
         raise click.BadParameter(f"no such directory: {target}", param_hint="--golden")
     with counting("computing") as advance:
-        drifts = compare(target, families, lambda _: advance())
+        drifts = compare(target, _families(corpus), lambda _: advance())
     for drift in drifts[:20]:
         click.echo(f"{drift.file}: {drift.what}")
     if len(drifts) > 20:
@@ -78,10 +79,15 @@ def check(folder: Path | None, corpus: Path | None) -> None:
     click.echo(f"every byte in {target} is as computed")
 
 
-def _place(folder: Path | None, corpus: Path | None) -> tuple[Path, tuple[Family, ...]]:
-    """Return where the golden files are, and the families that make them."""
+def _place(folder: Path | None, corpus: Path | None) -> Path:
+    """Return where the golden files are."""
     if corpus is None:
-        return folder or GOLDEN, FAMILIES
+        return folder or GOLDEN
     if folder is not None:
         raise click.UsageError("--corpus has its golden files in itself: give no --golden")
-    return corpus / "golden", sources(corpus)
+    return corpus / "golden"
+
+
+def _families(corpus: Path | None) -> tuple[Family, ...]:
+    """Return the families that make the golden files."""
+    return FAMILIES if corpus is None else sources(corpus)

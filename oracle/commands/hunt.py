@@ -64,7 +64,8 @@ Examples:
 
 \b
 In --out: golden rows with a manifest, for certify --golden and explain; and
-hunt.json, with the answers and what each case was before it was made simple.
+hunt-SEED.json, with the answers and what each case was before it was made
+simple. The same hunt again replaces its own; another has the next free name.
 Ctrl-C ends the hunt and keeps what was found.
 
 \b
@@ -186,18 +187,15 @@ def status(found: Hunt) -> str:
 def _written(
     found: Hunt, job: Job, target: tuple[str, ...], options: dict[str, Any]
 ) -> dict[str, Finding]:
-    findings = keep.named(found.findings.values(), job.seed)
     names = ("level", "convention", "far", "solids", "cases", "seconds", "seed", "seeded")
     asked = {"target": list(spelled(target)), **{name: options[name] for name in names}}
+    findings = keep.named(found.findings.values(), keep.family(job.seed))
     try:
-        rows = keep.rows(findings, found.looker) if findings else []
+        with writing(options["out"]):
+            findings = keep.write(options["out"], found, asked)
     except Contradiction as error:
         doubt = f"the oracle is in doubt, nothing was written: {error}"
         raise click.ClickException(doubt) from None
-    report = keep.form(found, findings, asked)
-    if findings or (options["out"] / keep.REPORT).exists():
-        with writing(options["out"]):
-            keep.write(options["out"], job.seed, rows, found.looker.hello.format, report)
     return findings
 
 

@@ -43,6 +43,7 @@ from raycert.cases.model import Ray, Solid, leaves, type_of
 from raycert.cases.numbers import Probe, is_usual, numbers
 from raycert.cases.row import GoldenRow
 from raycert.oracle.corpus.golden import Contradiction, golden_files
+from raycert.oracle.corpus.lock import locked
 from raycert.oracle.exact.condition import condition
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.witness.crosscheck import Hearing, Query, check
@@ -112,6 +113,11 @@ def adopt(corpus: Path, name: str, candidate: Candidate, slug: str | None = None
     Raises `Unfit` and `BadFile`; then nothing is written.
     """
     _fit(name, candidate)
+    with locked(corpus / "golden"):
+        return _adopt(corpus, name, candidate, slug)
+
+
+def _adopt(corpus: Path, name: str, candidate: Candidate, slug: str | None) -> Adoption:
     source = corpus / "adopted" / f"{name}.jsonl"
     entries = read(source)
     golden = corpus / "golden"

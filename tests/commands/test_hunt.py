@@ -28,7 +28,7 @@ def test_what_is_found_is_printed_and_certify_replays_it(out, tmp_path):
     assert result.exit_code == 1, result.output
     assert "malformed on" in result.output
     assert f"raycert certify --golden {out}" in result.output
-    report = json.loads((out / "hunt.json").read_text())
+    report = json.loads((out / "hunt-0.json").read_text())
     assert report["asked"]["target"] == [spec("no-clip")]
     words = ["--golden", str(out), "--level", "stable", "--out", str(tmp_path / "c.json")]
     assert CliRunner().invoke(certify, [*words, spec("no-clip")]).exit_code == 1

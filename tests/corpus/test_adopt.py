@@ -2,8 +2,10 @@
 
 import json
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
+from threading import Barrier
 from typing import Any
 
 import pytest
@@ -67,6 +69,21 @@ def test_files_of_other_families_stay_and_stay_in_the_manifest(tmp_path: Path) -
         name: data for name, data in before.items() if MANIFEST not in name
     }
     assert len(read_corpus("binary64", tmp_path / "golden").rows) == 2
+    assert compare(tmp_path / "golden", sources(tmp_path), lambda _: None) == []
+
+
+def test_adoptions_at_once_lose_nothing(tmp_path: Path) -> None:
+    start = Barrier(4)
+
+    def keep(number: int) -> str:
+        start.wait()
+        ray = replace(OTHER.ray, origin=(-3.0, number / 16, 1.1))
+        found = replace(OTHER, ray=ray, why=f"A ray passes at {number} sixteenths.")
+        return adopt(tmp_path, f"family-{number % 2}", found, f"ray-{number}").id
+
+    with ThreadPoolExecutor(4) as pool:
+        ids = set(pool.map(keep, range(8)))
+    assert {row.id for row in read_corpus("binary64", tmp_path / "golden").rows} == ids
     assert compare(tmp_path / "golden", sources(tmp_path), lambda _: None) == []
 
 
