@@ -27,6 +27,8 @@ binary32) and is taken as exactly the number it is; -0 is 0.
     files       the files that somebody gives, read
     row         a golden row and its JSON form
     corpus      the golden files and their manifest
+    interrupts  signals that end a run: where they are taken, where they wait
+    workers     processes of ours that work side by side, and end with us
     lattice     where every sound formula decides a touch exactly
     families    the golden cases, as tables of shots
     dice        deterministic random numbers

@@ -14,6 +14,7 @@ start inside, or on the boundary, shows as a first interval that begins at 0.
 from __future__ import annotations
 
 import json
+import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Sequence
@@ -336,12 +337,18 @@ def serve(
     lines: Iterable[bytes] | None = None,
     out: BinaryIO | None = None,
 ) -> None:
-    """Answer every line until the input ends. A line that cannot be answered gets an `error`."""
+    """Answer every line until the input ends. A line that cannot be answered gets an `error`.
+
+    It ends too where nobody reads the answers any more.
+    """
     lines = sys.stdin.buffer if lines is None else lines
     out = sys.stdout.buffer if out is None else out
-    for line in lines:
-        out.write(answer(line, intersect, hello))
-        out.flush()
+    try:
+        for line in lines:
+            out.write(answer(line, intersect, hello))
+            out.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), out.fileno())  # for what is buffered
 
 
 def answer(line: bytes, intersect: Intersect, hello: Hello) -> bytes:

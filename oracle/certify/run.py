@@ -14,6 +14,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from raycert.cases.corpus import GOLDEN, Corpus, read_corpus
+from raycert.cases.interrupts import interruptible
 from raycert.cases.levels import Level
 from raycert.cases.protocol import Hello
 from raycert.cases.row import GoldenRow
@@ -147,6 +148,7 @@ class Result:
         )
 
 
+@interruptible()
 def prepare(plan: Plan) -> Prepared:
     """Greet the target and choose the rows.
 
@@ -179,14 +181,12 @@ def conduct(prepared: Prepared, watch: Watch | None = None) -> Result:
     `Unsuitable` where not one easy case is answered.
     """
     watch, plan = watch or Watch(), prepared.plan
-    notes = smoke(plan, prepared.hello, watch)
     began, clock = datetime.now(UTC).isoformat(timespec="seconds"), time.monotonic()
-    answers = _Answers(prepared, watch, notes)
+    answers = _Answers(prepared, watch)
     size = BLOCK if plan.fail_fast else len(prepared.rows)
     for start in range(0, len(prepared.rows), size):
-        answers.add(prepared.rows[start : start + size])
-        if answers.stopped:
-            break
+        if not answers.stopped:
+            answers.add(prepared.rows[start : start + size])
     grades = tuple(answers.grades)
     said = dict.fromkeys((*answers.notes, *contradictions(prepared.hello, grades)))
     ran = Ran(
@@ -223,12 +223,18 @@ def _unanswered(outcome: Outcome) -> bool:
 class _Answers:
     """What is known of a run so far."""
 
-    def __init__(self, prepared: Prepared, watch: Watch, notes: Sequence[str]) -> None:
+    def __init__(self, prepared: Prepared, watch: Watch) -> None:
+        """Ask the easy cases."""
         self.grades: list[Grade] = []
-        self.notes = list(notes)
+        self.notes: list[str] = []
         self.restarts = 0
         self.stopped = False
         self._prepared, self._watch = prepared, watch
+        try:
+            with interruptible():
+                self.notes += smoke(prepared.plan, prepared.hello, watch)
+        except KeyboardInterrupt:
+            self.stopped = True
 
     def add(self, rows: Sequence[GoldenRow]) -> None:
         self._judge(rows, self._ask(rows))
@@ -250,9 +256,13 @@ class _Answers:
                 done = known
 
             try:
-                ran = ask(plan.target, questions, plan.limits, on_progress)
+                with interruptible():
+                    ran = ask(plan.target, questions, plan.limits, on_progress)
             except Interrupted as interrupted:
                 ran, self.stopped = interrupted.run, True
+            except KeyboardInterrupt:
+                self.stopped = True
+                return {}
         self.restarts += ran.restarts
         self.notes += ran.notes
         return dict(ran.outcomes)
@@ -261,11 +271,12 @@ class _Answers:
         answered = [row for row in rows if row.id in outcomes]
         with self._watch.counting("judging", len(answered)) as advance:
             try:
-                for row in answered:
-                    graded = grade(row, outcomes[row.id], self._prepared.hello)
-                    if graded.faults:
-                        graded.measure()  # it is shown: now, where the progress is
-                    self.grades.append(graded)
-                    advance()
+                with interruptible():
+                    for row in answered:
+                        graded = grade(row, outcomes[row.id], self._prepared.hello)
+                        if graded.faults:
+                            graded.measure()  # it is shown: now, where the progress is
+                        self.grades.append(graded)
+                        advance()
             except KeyboardInterrupt:
                 self.stopped = True

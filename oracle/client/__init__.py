@@ -1,10 +1,11 @@
 """What an implementation answers, whatever it does: each failure is pinned on its own question.
 
-process    one live program: lines in, lines out, and no deadlock
-dialogue   questions to a target, answers in order; a program that speaks the line protocol
-inprocess  code that is loaded into a process of ours, and how questions travel there
-worker     what runs in that process: code loaded, called and understood
-target     what the words of a target mean
-replay     a run over many questions, and what is asked again after a failure
-smoke      easy cases, and what their answers say of the adapter
+process      one live program: lines in, lines out, and no deadlock
+descendants  whom a client has started, found and ended wherever they went
+dialogue     questions to a target, answers in order; a program that speaks the line protocol
+inprocess    code that is loaded into a process of ours, and how questions travel there
+worker       what runs in that process: code loaded, called and understood
+target       what the words of a target mean
+replay       a run over many questions, and what is asked again after a failure
+smoke        easy cases, and what their answers say of the adapter
 """

@@ -18,6 +18,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import IO, Literal
 
+from raycert.cases.interrupts import held
+from raycert.oracle.client import descendants
+
 Kind = Literal["crash", "hang", "bad-line", "wrong-id", "malformed", "unrepeatable"]
 
 CHUNK = 1 << 16
@@ -62,7 +65,7 @@ class Process:
     """A running program, in a process group of its own.
 
     `send` never blocks. `receive` returns within its time limit and holds bounded memory. After
-    `kill` neither the program nor a child of it that stayed in its group is left.
+    `kill` neither the program is left nor whom it has started (descendants.py).
     """
 
     def __init__(self, command: Sequence[str], line: int) -> None:
@@ -75,6 +78,15 @@ class Process:
         self._gone = False
         self._in: queue.Queue[bytes] = queue.Queue(CHUNKS)
         self._out: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
+        self._mark, environment = descendants.environment()
+        try:
+            with held():
+                self._start(command, environment)
+        except BaseException:
+            descendants.end(self._mark)
+            raise
+
+    def _start(self, command: Sequence[str], environment: dict[str, str]) -> None:
         self._popen = subprocess.Popen(
             list(command),
             stdin=subprocess.PIPE,
@@ -82,7 +94,10 @@ class Process:
             stderr=subprocess.PIPE,
             bufsize=0,
             start_new_session=True,
+            env=environment,
         )
+        if os.name == "posix":
+            descendants.GROUPS[self._mark] = self._popen.pid
         pumps = (self._write, self._popen.stdin), (self._read, self._popen.stdout)
         self._threads = [
             threading.Thread(target=pump, args=(pipe,), daemon=True)
@@ -145,23 +160,21 @@ class Process:
         return before + "\n".join(lines[-10:])
 
     def kill(self) -> None:
-        """Leave nothing behind: kill the group, reap the program, end the threads."""
-        self._signal()
-        self._out.put(None)
-        with contextlib.suppress(subprocess.TimeoutExpired):
-            self._popen.wait(10)
-        # A thread outlives this only where a child that left the group holds the pipe.
-        deadline = time.monotonic() + GRACE
-        while any(thread.is_alive() for thread in self._threads) and time.monotonic() < deadline:
-            with contextlib.suppress(queue.Empty):
-                self._in.get(timeout=0.005)
-
-    def _signal(self) -> None:
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            if os.name == "posix":
-                os.killpg(self._popen.pid, signal.SIGKILL)
-            else:
-                self._popen.kill()
+        """Leave nothing behind: end the program and whom it has started, then the threads."""
+        with held():
+            self._popen.kill()
+            descendants.kill_group(self._mark)
+            self._out.put(None)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._popen.wait(10)
+            descendants.end(self._mark)
+            # A thread outlives this only where one that could not be found holds the pipe.
+            deadline = time.monotonic() + GRACE
+            while any(thread.is_alive() for thread in self._threads):
+                if time.monotonic() > deadline:
+                    break
+                with contextlib.suppress(queue.Empty):
+                    self._in.get(timeout=0.005)
 
     def _chunk(self, deadline: float) -> bytes | None:
         """Return the next bytes; b"" at the end; None if the time is up."""

@@ -1,6 +1,7 @@
 """The command line: one module a verb. Each loads what it uses when it runs, and not before.
 
 main           the command `raycert`: its table of verbs
+streams        standard streams that never fail a command
 options        the options that verbs share
 asking         a case by options, id or JSON
 measuring      what bench and stress share

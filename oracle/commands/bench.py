@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from raycert.cases.interrupts import held
 from raycert.oracle.commands.measuring import (
     chosen,
     drawing,
@@ -91,6 +92,7 @@ Exit status: 0 done, 1 interrupted, 2 bad usage, 3 a client could not be run, or
 @click.option("--rays", type=click.IntRange(min=4), help="Rays of a scenario.")
 @click.option("--commands", is_flag=True, help="Time whole commands of raycert as well.")
 @click.option("--list", "listing", is_flag=True, help="List sections and methods, and end.")
+@held()
 def bench(**options: Any) -> None:
     """Set the error of many ways to answer rays against their time per ray."""
     if options["listing"]:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from raycert.cases.interrupts import held
 from raycert.oracle.commands.options import (
     FILE,
     FILE_OR_DASH,
@@ -108,6 +109,7 @@ def report_options(function: Function) -> Function:
 @click.option("--stress", is_flag=True, help="Set its error against stiffness too (a minute).")
 @click.option("--bench", is_flag=True, help="Set its error against run time too.")
 @limits_options
+@held()
 def certify(target: tuple[str, ...], **options: Any) -> None:
     """Grade TARGET on the golden cases, print the verdict, write the certificate.
 
@@ -123,7 +125,8 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     result = _run(_plan(target, options))
     known = result.matched(expected).as_json(str(options["expect"])) if expected else None
     form = result.form(spelled(target), known)
-    form["standing"] = _standing(result.prepared.hello.name, aim(target), options)
+    asked = {} if result.ran.interrupted else options
+    form["standing"] = _standing(result.prepared.hello.name, aim(target), asked)
     _print(form)
     out, data = str(options["out"]), json.dumps(form, indent=1, allow_nan=False) + "\n"
     written = [out] if write_out(out, data) else []
@@ -195,7 +198,7 @@ def _standing(name: str, target: Target, options: dict[str, Any]) -> dict[str, A
 
     standing: dict[str, Any] = {"stress": None, "bench": None}
     for option, measure in (("stress", under_stress), ("bench", in_time)):
-        if options[option]:
+        if options.get(option):
             try:
                 standing[option] = measure(name, target, counting)
             except Unusable as error:

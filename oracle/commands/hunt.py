@@ -14,6 +14,7 @@ import click
 
 from raycert.cases.corpus import GOLDEN, MANIFEST, read_manifest
 from raycert.cases.files import BadFile
+from raycert.cases.interrupts import held, interruptible
 from raycert.cases.model import SOLIDS
 from raycert.oracle.client.dialogue import Target, Unusable
 from raycert.oracle.commands.options import (
@@ -95,6 +96,7 @@ target could not be run, or the cluster was lost: what was found by then is kept
 )
 @click.option("--out", type=FOLDER, default="hunted", show_default=True)
 @limits_options
+@held()
 def hunt(target: tuple[str, ...], **options: Any) -> None:
     """Search for cases that TARGET gets wrong, beyond the golden ones, and make them simple."""
     _check(options)
@@ -147,7 +149,8 @@ def _hunt(job: Job, options: dict[str, Any]) -> Hunt:
         with _watched(budget) as on_progress:
             executor: Executor = Here(work_here)
             if options["scheduler"]:
-                executor = Cluster(work_here, options["scheduler"])
+                with interruptible():
+                    executor = Cluster(work_here, options["scheduler"])
             elif options["workers"] > 1:
                 executor = Processes(work_here, options["workers"])
             return run(job, budget, executor, on_progress)

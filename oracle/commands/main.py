@@ -8,7 +8,9 @@ from typing import Any
 
 import click
 
+from raycert.cases import interrupts
 from raycert.cases.files import BadFile
+from raycert.oracle.commands import streams
 from raycert.oracle.commands.options import FULL, LOST, NOT_WRITTEN, BadInput, flush
 
 VERBS: dict[str, dict[str, tuple[str, str]]] = {
@@ -57,12 +59,22 @@ First steps:
 
 Exit status: 0 granted or done, 1 not granted or differences found, 2 bad usage or
 input, 3 the target could not be run or nothing was tested, 4 an output could not be
-written: what was found is printed, what is missing is said last.
+written: what was found is printed, what is missing is said last. Ctrl-C, SIGTERM,
+SIGHUP and SIGQUIT are one: what a verb keeps is written, with the verb's status;
+where there is nothing to keep, the status is 128 and the signal's number.
 """
 
 
 class Verbs(click.Group):
     """A group whose commands are imported when they are needed."""
+
+    def main(self, *args: Any, **kwargs: Any) -> Any:
+        """Run the command; called without arguments it is what the process is for."""
+        alone = not (args or kwargs)
+        if alone:
+            streams.keep()
+        with interrupts.taken(alone):
+            return super().main(*args, **kwargs)
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return list(PLACES)
@@ -85,7 +97,8 @@ class Verbs(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         """Do what the verb does, and say last what it could not write: exit status 4.
 
-        Whatever it reads and cannot use ends it with exit status 2.
+        Whatever it reads and cannot use ends it with exit status 2, an interruption that it does
+        not answer for with the signal's.
         """
         lost: list[str] = ctx.meta.setdefault(LOST, [])
         try:
@@ -99,6 +112,9 @@ class Verbs(click.Group):
             if error.errno not in FULL:
                 raise
             lost.append(f"standard output: {error.strerror}")
+        except KeyboardInterrupt:
+            click.echo("raycert: interrupted", err=True)
+            raise SystemExit(interrupts.status()) from None
         finally:
             for what in lost:
                 click.echo(f"raycert: not written: {what}", err=True)

@@ -12,6 +12,7 @@ from typing import Any
 import click
 
 from raycert.cases.formats import FORMATS
+from raycert.cases.interrupts import held
 from raycert.cases.model import Refused
 from raycert.oracle.client.dialogue import Unusable
 from raycert.oracle.commands.asking import SHAPES, case_options, chosen, count_given
@@ -63,7 +64,7 @@ Examples:
       --y solid.of[1].q[2] --unit units --span 0.5 --out film.png
 
 \b
-Exit status: 0 done; 2 bad usage or input; 3 the target could not be run.
+Exit status: 0 done, 1 interrupted; 2 bad usage or input; 3 the target could not be run.
 """
 
 
@@ -93,6 +94,7 @@ Exit status: 0 done; 2 bad usage or input; 3 the target could not be run.
     help="File: .png, .svg, .json or .csv (repeatable).",
 )
 @limits_options
+@held()
 def draw_map(**options: Any) -> None:
     """Draw what surrounds a case: for each cell the exact answer, or how far a target's is right.
 
@@ -113,6 +115,7 @@ def draw_map(**options: Any) -> None:
     for path, drawn in zip(options["outs"], writers, strict=True):
         written += [str(path)] if write_out(path, drawn(found, title)) else []
     click.echo(f"wrote {', '.join(written) or 'nothing'}")
+    raise SystemExit(0 if found.whole else 1)
 
 
 def _writer(path: Path) -> Callable[[Map, str], str | bytes]:

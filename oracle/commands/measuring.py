@@ -6,10 +6,11 @@ import shlex
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import click
 
+from raycert.cases.interrupts import interruptible
 from raycert.oracle.commands.options import FOLDER, repeatable, stop, write_out
 
 if TYPE_CHECKING:
@@ -40,7 +41,8 @@ def chosen(names: Sequence[str], clients: Sequence[str]) -> tuple[list[Way], lis
     known(names, catalog.BY_NAME, "--method", "raycert bench --list shows all")
     targets = [_words(client) for client in clients]
     try:
-        return catalog.here(catalog.chosen(names, targets))
+        with interruptible():
+            return catalog.here(catalog.chosen(names, targets))
     except Unusable as error:
         stop(str(error))
 
@@ -88,10 +90,10 @@ def drawing() -> Iterator[None]:
         click.echo('no plots without matplotlib: pip install "raycert[plots]"', err=True)
 
 
-def end(interrupted: bool, written: Iterable[Path]) -> None:
+def end(interrupted: bool, written: Iterable[Path]) -> NoReturn:
     """Say what was written; an interrupted run ends with exit status 1."""
     for path in written:
         click.echo(f"wrote {path}")
     if interrupted:
         click.echo("raycert: interrupted; this is what was measured by then", err=True)
-        raise SystemExit(1)
+    raise SystemExit(1 if interrupted else 0)

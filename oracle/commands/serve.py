@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from raycert.oracle.commands import streams
 from raycert.oracle.commands.options import PRECISIONS
 
 if TYPE_CHECKING:
@@ -39,6 +40,9 @@ def serve(name: str, precision: str, numbers: str) -> None:
 
 def _serve_oracle(precision: str, numbers: Any) -> None:
     """Answer every case with the exact list, correctly rounded to the precision."""
+    import sys
+    from itertools import takewhile
+
     from raycert.cases.formats import FORMATS
     from raycert.cases.protocol import Hello, serve
     from raycert.oracle.exact.intervals import expected
@@ -47,4 +51,5 @@ def _serve_oracle(precision: str, numbers: Any) -> None:
     def intersect(solid: Solid, ray: Ray) -> tuple[tuple[float, float], ...]:
         return expected(trace(solid, ray).intervals, FORMATS[precision])[1]
 
-    serve(intersect, Hello("raycert oracle", precision=precision, numbers=numbers))
+    heard = takewhile(lambda _: 1 not in streams.GONE, sys.stdin.buffer)
+    serve(intersect, Hello("raycert oracle", precision=precision, numbers=numbers), heard)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from raycert.cases.interrupts import held, interruptible
 from raycert.oracle.commands.measuring import (
     chosen,
     drawing,
@@ -75,6 +76,7 @@ Exit status: 0 done, 1 interrupted, 2 bad usage, 3 a client could not be run.
 @ways_options
 @click.option("--quick", is_flag=True, help="Within a minute: each third step, 8 rays.")
 @click.option("--workers", type=click.IntRange(min=1), default=2, show_default=True)
+@held()
 def stress(**options: Any) -> None:
     """Set the error of many ways to answer rays against how stiff the problem is."""
     from raycert.oracle.measure import curves
@@ -106,7 +108,7 @@ def _meshes(found: Stress) -> list[Sides]:
 
     ways = {way.name: way for way in here(WAYS)[0]}
     try:
-        with counting("casting at meshes", len(CASTERS) * len(SIDES)) as advance:
+        with interruptible(), counting("casting at meshes", len(CASTERS) * len(SIDES)) as advance:
             return curves(ways, found.plan.seed, advance, 512 if found.plan.quick else SIDES[-1])
     except KeyboardInterrupt:
         found.interrupted = True

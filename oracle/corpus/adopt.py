@@ -38,6 +38,7 @@ from raycert.cases.files import read_file
 from raycert.cases.flags import FLAGS
 from raycert.cases.formats import FORMATS, Format
 from raycert.cases.forms import write_ray, write_solid
+from raycert.cases.interrupts import held
 from raycert.cases.lattice import is_lattice
 from raycert.cases.model import Ray, Solid, leaves, type_of
 from raycert.cases.numbers import Probe, is_usual, numbers
@@ -133,10 +134,11 @@ def _adopt(corpus: Path, name: str, candidate: Candidate, slug: str | None) -> A
     entries = (*entries, Adopted(case, precisions))
     family = Family(name, REASON, lambda fmt: cases_of(entries, fmt))
     made = dict(golden_files((family,), lambda _: None))
-    write_whole(source, encode(entries))
-    for file, data in made.items():
-        write_whole(golden / file, data)
-    write_whole(golden / MANIFEST, manifest(files | made))
+    with held():
+        write_whole(source, encode(entries))
+        for file, data in made.items():
+            write_whole(golden / file, data)
+        write_whole(golden / MANIFEST, manifest(files | made))
     return Adoption(f"{name}/{case.slug}", precisions, (source, *(golden / file for file in made)))
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from raycert.cases.case import Case, Family, KnownEnd
 from raycert.cases.corpus import MANIFEST, encode_rows, manifest, write_whole
 from raycert.cases.formats import FORMATS, Format
+from raycert.cases.interrupts import held
 from raycert.cases.model import Ray, Solid, Tree
 from raycert.cases.row import End, GoldenRow, Span
 from raycert.oracle.exact.condition import condition
@@ -113,11 +114,12 @@ def write(
 ) -> dict[str, bytes]:
     """Write every golden file and the manifest; nothing is touched before all rows are made."""
     files = dict(golden_files(families, progress, witnesses))
-    for name, data in files.items():
-        write_whole(folder / name, data)
-    for stale in set(folder.glob("*/*.jsonl")) - {folder / name for name in files}:
-        stale.unlink()
-    write_whole(folder / MANIFEST, manifest(files))
+    with held():
+        for name, data in files.items():
+            write_whole(folder / name, data)
+        for stale in set(folder.glob("*/*.jsonl")) - {folder / name for name in files}:
+            stale.unlink()
+        write_whole(folder / MANIFEST, manifest(files))
     return files
 
 

@@ -15,21 +15,20 @@ SILENCE seconds without a sign of life of any worker the cluster is lost.
 
 from __future__ import annotations
 
-import signal
 import threading
 import time
 from collections import Counter, deque
 from collections.abc import Callable, Sequence
-from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, ProcessPoolExecutor, wait
+from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, wait
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from dataclasses import dataclass
 from importlib.metadata import version
-from multiprocessing import get_context
 from pickle import PickleError
 from typing import Any, Protocol
 from uuid import uuid4
 
+from raycert.cases.workers import Workers
 from raycert.oracle.hunt.unit import Haul, Unit
 
 Work = Callable[[Unit], Haul]
@@ -94,11 +93,7 @@ class Processes:
         self.places = count
         self._work, self._losses = work, Counter[int]()
         self._units: dict[Future[Haul], Unit] = {}
-        self._open()
-
-    def _open(self) -> None:
-        ignore = signal.signal, (signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for who waits
-        self._pool = ProcessPoolExecutor(self.places, get_context("spawn"), *ignore)
+        self._pool = Workers(count)
 
     def submit(self, unit: Unit) -> None:
         try:
@@ -128,14 +123,12 @@ class Processes:
             raise Lost(f"{losses} times a worker process ended in the middle of the same work")
         self._units.clear()
         self._pool.shutdown(wait=False, cancel_futures=True)
-        self._open()
+        self._pool = Workers(self.places)
         for unit in sorted((*waiting, *under_way), key=lambda unit: unit.number):
             self.submit(unit)
 
     def close(self) -> None:
-        for process in list((self._pool._processes or {}).values()):
-            process.terminate()
-        self._pool.shutdown(wait=True, cancel_futures=True)
+        self._pool.end()
 
 
 @dataclass(frozen=True, slots=True)

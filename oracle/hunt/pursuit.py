@@ -49,14 +49,14 @@ HIGHEST = 64.0
 
 
 def work(job: Job, unit: Unit) -> Haul:
-    """Do a unit. On `KeyboardInterrupt` what is known is returned, cut. Raises `Unusable`."""
+    """Do a unit. Raises `Unusable`."""
     site, ways = Site(job, unit), {"directed": directed, "drawn": drawn}
     try:
         if possible(site.solids):
             ways[job.methods[unit.number % len(job.methods)]](site)
     except Spent:
         return site.haul(cut=False)
-    except (TimeUp, KeyboardInterrupt):
+    except TimeUp:
         return site.haul(cut=True)
     finally:
         site.session.close()

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field, replace
 from itertools import count
 from math import inf
 
+from raycert.cases.interrupts import interruptible
 from raycert.cases.numbers import Probe
 from raycert.oracle.client.dialogue import Outcome, Unusable
 from raycert.oracle.hunt.executors import Executor, Lost
@@ -100,12 +101,14 @@ def hunt(job: Job, budget: Budget, executor: Executor, on_progress: Progress | N
     `ended` says the rest.
     """
     try:
-        course = _Course(job, budget, executor, on_progress or (lambda _: None))
+        with interruptible():
+            course = _Course(job, budget, executor, on_progress or (lambda _: None))
     except BaseException:
         executor.close()
         raise
     try:
-        course.run()
+        with interruptible():
+            course.run()
     except TimeUp:
         pass
     except KeyboardInterrupt:

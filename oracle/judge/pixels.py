@@ -132,9 +132,9 @@ def _beside(leaf: InfiniteCylinder | Cylinder, ray: Ray) -> bool:
 
 def every_row(scene: Scene, answers: Answers, processes: int = 2) -> Iterator[list[float]]:
     """Yield the errors of each row in turn, given the lists of all pixels; in so many processes."""
-    from concurrent.futures import ProcessPoolExecutor
     from functools import partial
-    from multiprocessing import get_context
+
+    from raycert.cases.workers import Workers
 
     width, height = scene.size
     rows = range(height), [answers[i * width : (i + 1) * width] for i in range(height)]
@@ -142,5 +142,5 @@ def every_row(scene: Scene, answers: Answers, processes: int = 2) -> Iterator[li
     if processes < 2 or len(answers) < FEW:
         yield from map(work, *rows)
         return
-    with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
+    with Workers(processes) as pool:
         yield from pool.map(work, *rows, chunksize=2)

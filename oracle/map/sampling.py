@@ -19,6 +19,7 @@ from typing import Literal, get_args
 
 from raycert.cases.accept import Numbers
 from raycert.cases.formats import BINARY64, Format
+from raycert.cases.interrupts import interruptible
 from raycert.cases.model import Refused, Tree, leaves, types
 from raycert.cases.numbers import Probe
 from raycert.cases.protocol import Hello, Reply
@@ -92,13 +93,14 @@ def sample(
     hello, outcomes = None, dict[At, Outcome]()
     if show != "exact":
         assert target is not None
-        hello = greet(target, limits)
+        with interruptible():
+            hello = greet(target, limits)
         _check(hello, raster)
         outcomes = _asked(target, probes, limits, counting)
     found = Map(raster, show, hello)
     compare = Comparison(show, hello, raster.inputs.format)
     try:
-        with counting("comparing", len(probes)) as advance:
+        with interruptible(), counting("comparing", len(probes)) as advance:
             for at, probe in probes.items():
                 if isinstance(probe, Refused):
                     found.cells[at] = Cell(refused=str(probe))
@@ -141,7 +143,8 @@ def _asked(
             done = known
 
         try:
-            outcomes = run(target, questions, limits, on_progress).outcomes
+            with interruptible():
+                outcomes = run(target, questions, limits, on_progress).outcomes
         except Interrupted as interrupted:
             outcomes = interrupted.run.outcomes
     return {places[id]: outcome for id, outcome in outcomes.items()}

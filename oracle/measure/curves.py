@@ -8,15 +8,15 @@ and as the nearest double.
 
 from __future__ import annotations
 
-import signal
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures import as_completed
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
 from fractions import Fraction
-from multiprocessing import get_context
 from typing import Any, NamedTuple, TypeVar
 
+from raycert.cases.interrupts import interruptible
+from raycert.cases.workers import Workers
 from raycert.oracle.certify.environment import environment
 from raycert.oracle.measure.catalog import BY_NAME
 from raycert.oracle.measure.causes import Cause, diagnose
@@ -92,10 +92,6 @@ def cause_of(stop: Stop, curve: Mapping[Fraction, Point], solve: Solve) -> Cause
     return diagnose(SWEEPS[stop.sweep], curve, stop.x, solve, stop.samples)
 
 
-def quiet() -> None:
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-
-
 @contextmanager
 def workers(
     count: int,
@@ -104,16 +100,14 @@ def workers(
     if count == 1:
         yield map
         return
-    pool = ProcessPoolExecutor(count, mp_context=get_context("spawn"), initializer=quiet)
 
-    def each(do: Callable[[Task], Result], tasks: Iterable[Task]) -> Iterator[Result]:
-        for done in as_completed([pool.submit(do, task) for task in tasks]):
-            yield done.result()
+    with Workers(count) as pool:
 
-    try:
+        def each(do: Callable[[Task], Result], tasks: Iterable[Task]) -> Iterator[Result]:
+            for done in as_completed([pool.submit(do, task) for task in tasks]):
+                yield done.result()
+
         yield each
-    finally:
-        pool.shutdown(cancel_futures=True)
 
 
 # The run.
@@ -225,7 +219,7 @@ def measure(plan: Itinerary, advance: Advance) -> Stress:
     """Return the curves of a plan, without causes; `advance()` is called `plan.total` times."""
     stress = Stress(plan)
     try:
-        with workers(plan.workers) as each:
+        with interruptible(), workers(plan.workers) as each:
             for sweep in plan.sweeps:
                 for walked in each(walk, plan.tasks(sweep)):
                     if walked is not None:
@@ -243,11 +237,12 @@ def find_causes(stress: Stress, advance: Advance) -> None:
         return
     built_in = [(w.name, stop, curve) for w, stop, curve in broken if w.precision != "client"]
     try:
-        for way, stop, curve in broken:
-            if way.precision == "client":
-                stress.add_cause(way.name, stop, cause_of(stop, curve, way.solve))
-                advance()
-        with workers(stress.plan.workers) as each:
+        with interruptible():
+            for way, stop, curve in broken:
+                if way.precision == "client":
+                    stress.add_cause(way.name, stop, cause_of(stop, curve, way.solve))
+                    advance()
+        with interruptible(), workers(stress.plan.workers) as each:
             for told in each(explain, built_in):
                 stress.add_cause(*told)
                 advance()

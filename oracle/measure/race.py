@@ -13,6 +13,7 @@ from math import inf, isinf, log2
 from typing import Any
 
 from raycert.cases.dice import Dice
+from raycert.cases.interrupts import interruptible
 from raycert.oracle.measure.clock import Race, Time
 from raycert.oracle.measure.errors import Error, Referee, Spread, backward, referees
 from raycert.oracle.measure.files import Effort, Report
@@ -162,7 +163,8 @@ def run(
         course = Course(name, rays_of(name, report.effort.rays, report.seed), ways, report.effort)
         report.notes += course.notes
         try:
-            course.run(advance)
+            with interruptible():
+                course.run(advance)
         except KeyboardInterrupt:
             report.interrupted = True
             return

@@ -17,6 +17,7 @@ from pathlib import Path
 from shutil import which
 from typing import Any
 
+from raycert.cases.interrupts import interruptible
 from raycert.cases.protocol import VERSION, ask, encode
 from raycert.oracle import starters
 from raycert.oracle.client.dialogue import Question, fresh_ids
@@ -406,9 +407,10 @@ def run(name: str, report: Report, advance: Callable[[], None] = lambda: None) -
         return
     rows = report.sections.setdefault(name, [])
     try:
-        for some in SECTIONS[name].rows(report):
-            rows += some
-            advance()
+        with interruptible():
+            for some in SECTIONS[name].rows(report):
+                rows += some
+                advance()
     except KeyboardInterrupt:
         report.interrupted = True
 

@@ -7,13 +7,12 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from itertools import repeat
-from multiprocessing import get_context
 from time import perf_counter
 
 from raycert.cases.model import Ray, Solid
+from raycert.cases.workers import Workers
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.witness.testimony import Outcome, Testimony, Witness, load, show
@@ -74,11 +73,8 @@ def crosscheck(
         for query in queries:
             yield check(query, names)
         return
-    pool = ProcessPoolExecutor(workers, mp_context=get_context("spawn"))
-    try:
+    with Workers(workers) as pool:
         yield from pool.map(check, queries, repeat(names), chunksize=CHUNK)
-    finally:
-        pool.shutdown(cancel_futures=True)
 
 
 @dataclass(slots=True)

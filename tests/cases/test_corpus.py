@@ -6,9 +6,12 @@ import copy
 import hashlib
 import json
 import os
+import sys
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 import pytest
@@ -168,6 +171,33 @@ def test_a_file_is_written_whole_or_not_at_all(
     assert [x.name for x in path.parent.iterdir()] == ["file"]
     write_whole(path, b"after")
     assert path.read_bytes() == b"after"
+
+
+@pytest.mark.filterwarnings("ignore::ResourceWarning")  # cut between making a file and `with`
+def test_an_interruption_at_any_line_of_the_writing_leaves_no_other_file(tmp_path: Path) -> None:
+    path, left = tmp_path / "file", 0
+
+    def trace(frame: FrameType, event: str, _: object) -> Any:
+        nonlocal left
+        if frame.f_code is not write_whole.__code__:
+            return None
+        left -= event == "line"
+        if left == 0:
+            raise KeyboardInterrupt
+        return trace
+
+    cuts = 0
+    while not path.exists() or path.read_bytes() != b"after":
+        path.write_bytes(b"before")
+        left = cuts = cuts + 1
+        before = sys.gettrace()
+        sys.settrace(trace)
+        with suppress(KeyboardInterrupt):
+            write_whole(path, b"after")
+        sys.settrace(before)
+        assert path.read_bytes() in (b"before", b"after")
+        assert os.listdir(tmp_path) == ["file"]
+    assert cuts > 8
 
 
 # The schemas

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import resource
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -19,6 +21,7 @@ from raycert.oracle.client.dialogue import Limits, Question, Unusable, fresh_ids
 from raycert.oracle.client.process import Failure
 from raycert.oracle.client.replay import Interrupted, Run, greet, run
 from shared.places import CLIENTS
+from shared.processes import alive, gone
 
 CAN = Cylinder((0, 0, 0), (0, 0, 1), 1)
 SHORT = Limits(hello=10.0, case=0.6)
@@ -248,23 +251,6 @@ def test_a_farewell_is_a_bad_line():
     assert "5 rays traced" in failures(result)[4].detail
 
 
-def alive(pid: int) -> bool:
-    """Tell whether a process runs; one that is dead and not yet reaped does not."""
-    try:
-        os.kill(pid, 0)
-        state = Path(f"/proc/{pid}/stat")
-        return not state.exists() or state.read_text().rsplit(")", 1)[1].split()[0] != "Z"
-    except (ProcessLookupError, FileNotFoundError):
-        return False
-
-
-def gone(pids: list[int]) -> bool:
-    deadline = time.monotonic() + 5
-    while any(map(alive, pids)) and time.monotonic() < deadline:
-        time.sleep(0.01)
-    return not any(map(alive, pids))
-
-
 @pytest.mark.parametrize("words", [[], ["dies"]])
 def test_grandchildren_are_killed_too(tmp_path: Path, words: list[str]):
     pids = tmp_path / "pids"
@@ -275,16 +261,24 @@ def test_grandchildren_are_killed_too(tmp_path: Path, words: list[str]):
     assert gone(children)
 
 
-def test_a_child_that_left_the_group_holds_nobody_up(tmp_path: Path):
+@pytest.mark.parametrize("words", [["escapes"], ["escapes", "dies"]])
+def test_a_child_that_left_the_session_holds_nobody_up_and_ends(tmp_path: Path, words: list[str]):
     pids = tmp_path / "pids"
+    stranger = subprocess.Popen(["sleep", "60"], start_new_session=True)
     began = time.monotonic()
     try:
-        result = run(command("family", pids, "dies", "escapes"), questions(6), Limits(case=3.0))
-        assert kinds(result) == {3: "crash"}
+        result = run(command("family", pids, *words), questions(6), Limits(case=3.0))
+        assert kinds(result) == ({3: "crash"} if "dies" in words else {})
         assert time.monotonic() - began < 10
+        children = [int(word) for word in pids.read_text().split()]
+        assert len(children) == 1 + result.restarts
+        assert sys.platform != "linux" or gone(children)
+        assert alive(stranger.pid)
     finally:
-        for word in pids.read_text().split():
-            os.kill(int(word), signal.SIGKILL)
+        for pid in [stranger.pid, *map(int, pids.read_text().split())]:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        stranger.wait()
 
 
 def test_threads_and_pipes_are_given_back():

@@ -1,7 +1,8 @@
 """Starts a child that holds its pipes for an hour, writes the child's id to FILE; answers well.
 
 `family.py FILE dies` ends at question 3 and leaves the child behind; with `escapes` as well, the
-child is in a session of its own, where no signal to the group finds it.
+child is in a session of its own, where no signal to the group finds it, and with `wiped` it has no
+environment.
 """
 
 import pathlib
@@ -14,6 +15,7 @@ from wire import place, reply, say, serve
 CHILD = subprocess.Popen(
     [sys.executable, "-c", "import time; time.sleep(3600)"],
     start_new_session="escapes" in sys.argv,
+    env={} if "wiped" in sys.argv else None,
 )
 with pathlib.Path(sys.argv[1]).open("a") as file:
     file.write(f"{CHILD.pid}\n")

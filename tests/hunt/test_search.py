@@ -7,6 +7,7 @@ import pytest
 from raycert.cases.numbers import numbers
 from raycert.oracle.client.dialogue import Unusable
 from raycert.oracle.client.inprocess import InProcess
+from raycert.oracle.hunt import pursuit
 from raycert.oracle.hunt.executors import Here, Lost, Processes
 from raycert.oracle.hunt.look import UNREPEATED
 from raycert.oracle.hunt.pursuit import work
