@@ -107,6 +107,16 @@ def test_a_loss_keeps_what_waits_for_a_unit_that_will_not_come():
     assert result.findings
 
 
+def test_an_interruption_in_the_middle_of_a_unit_here_ends_the_hunt(monkeypatch):
+    def interrupt(_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(pursuit, "drawn", interrupt)  # how the second unit searches
+    result = here("no-clip", Budget(cases=480, unit=160))
+    assert result.ended == "interrupted"
+    assert result.tried == 160
+
+
 def test_an_answer_that_depends_on_the_one_before_is_kept_with_it():
     result = here("late", Budget(cases=160, unit=160, most=2))
     assert any(f.repeats for f in result.findings.values())
