@@ -17,7 +17,7 @@ import json
 import os
 import re
 import sys
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from math import inf, isinf, isnan
@@ -44,6 +44,10 @@ Intersect = Callable[[Solid, Ray], Iterable[tuple[float, float]]]
 T = TypeVar("T", bound=float)
 WORDS = 1000
 """Characters of a text of others that are kept: a reason, an exception, a name."""
+HEAD = rb'\s*\{\s*"id"\s*:\s*"(?P<id>[^"\\]*)"'
+"""How a line begins that is a question or an answer, as nearly everybody writes it."""
+LINE = 1 << 20
+"""No line has more bytes."""
 LONG = 4096
 """A line of more bytes is looked at for its pairs before it is read."""
 ask = question
@@ -263,8 +267,8 @@ def _more_pairs_than(most: int) -> re.Pattern[bytes]:
 
     To read all of a long line, to be told then that it is too long, takes a hundred times as long.
     """
-    head = rb'\s*\{\s*"id"\s*:\s*"(?P<id>[^"\\]*)"\s*,\s*"intervals"\s*:\s*\['
-    return re.compile(head + rb"(?:[^\[\]]*\[[^\[\]]*\]){%d}\s*,\s*\[" % most)
+    pairs = rb'\s*,\s*"intervals"\s*:\s*\['
+    return re.compile(HEAD + pairs + rb"(?:[^\[\]]*\[[^\[\]]*\]){%d}\s*,\s*\[" % most)
 
 
 def _reason(value: object, line: bytes) -> str:
@@ -341,7 +345,7 @@ def serve(
 
     It ends too where nobody reads the answers any more.
     """
-    lines = sys.stdin.buffer if lines is None else lines
+    lines = lines_of(sys.stdin.buffer) if lines is None else lines
     out = sys.stdout.buffer if out is None else out
     try:
         for line in lines:
@@ -351,20 +355,45 @@ def serve(
         os.dup2(os.open(os.devnull, os.O_WRONLY), out.fileno())  # for what is buffered
 
 
+def lines_of(stream: BinaryIO, most: int = LINE) -> Iterator[bytes]:
+    """Yield the lines of a stream; of one with more than `most` bytes only the first of them.
+
+    Of what is left out nothing is held. Such a line has one byte more than `most`.
+    """
+    while line := stream.readline(most + 1):
+        yield line
+        while len(line) > most and not line.endswith(b"\n"):
+            line = stream.readline(most + 1)
+
+
 def answer(line: bytes, intersect: Intersect, hello: Hello) -> bytes:
+    """Return the line that answers a line, whatever it is, and whatever `intersect` does."""
+    if len(line.rstrip(b"\n")) > LINE:
+        long = f"the line has more than {LINE} bytes: {_shown(line)}"
+        return encode({**_addressed(line), "error": long})
     try:
         message = decode(line)
     except BadLine as error:
-        return encode({"error": f"the line {error}"})
+        return encode({**_addressed(line), "error": f"the line {error}"})
     if "hello" in message:
         return write_hello(hello)
     id = message.get("id", "")
+    if not isinstance(id, str):
+        return encode({"error": f"the line has an id that is not a string: {_shown(line)}"})
     try:
         solid = read_solid(message.get("solid"), "solid", hello.numbers, hello.format)
         ray = read_ray(message.get("ray"), "ray", hello.numbers, hello.format)
         return _reply(id, tuple(intersect(solid, ray)), hello)
     except Refused as refusal:
-        return encode({"id": id, "error": str(refusal)})
+        return encode({"id": id, "error": cut(str(refusal))})
+    except Exception as error:  # a question that breaks the tracer is no reason to answer no other
+        return encode({"id": id, "error": cut(f"{type(error).__name__}: {error}")})
+
+
+def _addressed(line: bytes) -> dict[str, Any]:
+    """Return the id that a line begins with, if it does, though the line cannot be read."""
+    head = re.match(HEAD, line)
+    return {"id": head["id"].decode("utf-8", "replace")} if head else {}
 
 
 def _reply(id: str, pairs: Pairs, hello: Hello) -> bytes:

@@ -27,7 +27,7 @@ from raycert.oracle.certify.selection import Left, Selection, able, select
 from raycert.oracle.certify.verdict import Verdict, verdict
 from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target
 from raycert.oracle.client.process import Failure
-from raycert.oracle.client.replay import Interrupted, greet
+from raycert.oracle.client.replay import Changed, Interrupted, greet
 from raycert.oracle.client.replay import run as ask
 from raycert.oracle.client.smoke import adapter_faults, easy
 from raycert.oracle.client.smoke import limits as soon
@@ -106,12 +106,13 @@ class Prepared:
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """What came of a run."""
+    """What came of a run. `changed` says how the target became another, where that ended it."""
 
     prepared: Prepared
     grades: tuple[Grade, ...]
     ran: Ran
     verdict: Verdict
+    changed: str = ""
 
     def matched(self, expectations: Expectations) -> Matched:
         plan = self.prepared.plan
@@ -197,7 +198,8 @@ def conduct(prepared: Prepared, watch: Watch | None = None) -> Result:
         began=began,
         diagnosis=tuple(diagnose(grades)) if any(g.faults for g in grades) else (),
     )
-    return Result(prepared, grades, ran, verdict(grades, plan.level, plan.convention))
+    found = verdict(grades, plan.level, plan.convention)
+    return Result(prepared, grades, ran, found, answers.changed)
 
 
 def smoke(plan: Plan, hello: Hello, watch: Watch) -> list[str]:
@@ -207,7 +209,7 @@ def smoke(plan: Plan, hello: Hello, watch: Watch) -> list[str]:
     """
     cases = easy(hello)
     questions = [case.question for case in cases]
-    outcomes = ask(plan.target, questions, soon(plan.limits)).outcomes
+    outcomes = ask(plan.target, questions, soon(plan.limits), hello=hello).outcomes
     said = adapter_faults(cases, outcomes)
     for line in said:
         watch.note(line)
@@ -229,6 +231,7 @@ class _Answers:
         self.notes: list[str] = []
         self.restarts = 0
         self.stopped = False
+        self.changed = ""
         self._prepared, self._watch = prepared, watch
         try:
             with interruptible():
@@ -246,8 +249,11 @@ class _Answers:
             self.notes.append(note)
 
     def _ask(self, rows: Sequence[GoldenRow]) -> dict[str, Outcome]:
-        plan, done = self._prepared.plan, 0
-        questions = [Question(row.id, row.solid, row.ray) for row in rows]
+        plan, hello, done = self._prepared.plan, self._prepared.hello, 0
+        # What is wrong with the end of a session is pinned on its last question, which has to count
+        # then: no failure of the range tier does.
+        in_order = sorted(rows, key=lambda row: row.tier != "range")
+        questions = [Question(row.id, row.solid, row.ray) for row in in_order]
         with self._watch.counting("asking", len(rows)) as advance:
 
             def on_progress(known: int) -> None:
@@ -257,12 +263,17 @@ class _Answers:
 
             try:
                 with interruptible():
-                    ran = ask(plan.target, questions, plan.limits, on_progress)
+                    ran = ask(plan.target, questions, plan.limits, on_progress, hello)
             except Interrupted as interrupted:
                 ran, self.stopped = interrupted.run, True
             except KeyboardInterrupt:
                 self.stopped = True
                 return {}
+            except Changed as changed:
+                if changed.run is None:
+                    raise
+                ran, self.stopped, self.changed = changed.run, True, str(changed)
+                self.notes.append(self.changed)
         self.restarts += ran.restarts
         self.notes += ran.notes
         return dict(ran.outcomes)

@@ -17,6 +17,7 @@ from typing import Protocol
 
 from raycert.cases.model import Ray, Solid
 from raycert.cases.protocol import (
+    LINE,
     VERSION,
     BadLine,
     Hello,
@@ -53,7 +54,7 @@ class Limits:
 
     hello: float = 10.0
     case: float = 5.0
-    line: int = 1 << 20
+    line: int = LINE
     window: int = 256
     in_a_row: int = 50
     lost: float = 600.0

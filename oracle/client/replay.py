@@ -12,12 +12,13 @@ whether an answer is right.
 
 from __future__ import annotations
 
+import json
 import time
 from collections import deque
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from raycert.cases.protocol import Hello
+from raycert.cases.protocol import Hello, cut
 from raycert.oracle.client.dialogue import (
     Command,
     Dialogue,
@@ -57,11 +58,38 @@ class Interrupted(KeyboardInterrupt):
         self.run = run
 
 
+class Changed(Unusable):
+    """The target says another hello than at first, so that it is another; `run` is of the first."""
+
+    def __init__(self, words: str, run: Run | None = None) -> None:
+        super().__init__(words)
+        self.run = run
+
+
 def greet(target: Sequence[str] | Target, limits: Limits | None = None) -> Hello:
     """Return what an implementation declares of itself. Raises `Unusable`."""
     dialogue = _target(target).open(limits or Limits(), fresh_ids())
     dialogue.kill()
     return dialogue.hello
+
+
+def open_again(target: Target, limits: Limits, ids: Iterator[str], first: Hello | None) -> Dialogue:
+    """Start a target that said this hello at first. Raises `Unusable`; `Changed` for another."""
+    dialogue = target.open(limits, ids)
+    if first is None or dialogue.hello == first:
+        return dialogue
+    dialogue.kill()
+    then, now = _differing(first, dialogue.hello), _differing(dialogue.hello, first)
+    raise Changed(
+        f"the target became another while it was asked: its hello said {then} at first, and {now} "
+        "when it was started again. What is certified is one target, so nothing more was asked."
+    )
+
+
+def _differing(hello: Hello, other: Hello) -> str:
+    """Return the fields of a hello that another has not so, as JSON."""
+    fields = {name: getattr(hello, name) for name in Hello.__slots__}
+    return cut(json.dumps({k: x for k, x in fields.items() if x != getattr(other, k)}), 300)
 
 
 def _target(target: Sequence[str] | Target) -> Target:
@@ -73,18 +101,23 @@ def run(
     questions: Sequence[Question],
     limits: Limits | None = None,
     on_progress: Progress | None = None,
+    hello: Hello | None = None,
 ) -> Run:
     """Ask an implementation, a command or any target, all the questions, whose ids are distinct.
 
     Every question gets an outcome, within bounded time. No process is left behind. `on_progress`
     is told now and then how many questions have one. Raises `Unusable` if the first start gives no
-    hello, and `Interrupted` on KeyboardInterrupt.
+    hello, `Changed` if a start gives another one than `hello` (that of the first start, if there is
+    none to compare with), and `Interrupted` on KeyboardInterrupt.
     """
     if len({question.id for question in questions}) < len(questions):
         raise ValueError("two questions have the same id")
-    replay = Replay(_target(target), questions, limits or Limits(), on_progress or (lambda _: None))
+    watch = on_progress or (lambda _: None)
+    replay = Replay(_target(target), questions, limits or Limits(), watch, hello)
     try:
         replay.all()
+    except Changed as changed:
+        raise Changed(str(changed), replay.result()) from None
     except KeyboardInterrupt:
         raise Interrupted(replay.result()) from None
     finally:
@@ -100,7 +133,12 @@ class Replay:
     """The state of one run."""
 
     def __init__(
-        self, target: Target, questions: Sequence[Question], limits: Limits, on_progress: Progress
+        self,
+        target: Target,
+        questions: Sequence[Question],
+        limits: Limits,
+        on_progress: Progress,
+        hello: Hello | None = None,
     ) -> None:
         self._target, self._questions, self._limits = target, questions, limits
         self._on_progress = on_progress
@@ -112,7 +150,7 @@ class Replay:
         self._lost = 0.0
         self._notes: list[str] = []
         self._ids = fresh_ids()
-        self._dialogue: Dialogue | None = target.open(limits, self._ids)
+        self._dialogue: Dialogue | None = open_again(target, limits, self._ids, hello)
         self._hello = self._dialogue.hello
 
     def all(self) -> None:
@@ -216,7 +254,7 @@ class Replay:
             self._in_a_row = 0
 
     def _live(self) -> Dialogue:
-        """Return the running process, or a fresh one. Raises `GivenUp`."""
+        """Return the running process, or a fresh one. Raises `GivenUp` and `Changed`."""
         if self._dialogue is None:
             began = time.monotonic()
             self._dialogue = self._restart()
@@ -232,14 +270,11 @@ class Replay:
         for _ in range(STARTS):
             self._restarts += 1
             try:
-                dialogue = self._target.open(self._limits, self._ids)
+                return open_again(self._target, self._limits, self._ids, self._hello)
+            except Changed:
+                raise
             except Unusable as error:
                 seen = str(error)
-                continue
-            if dialogue.hello == self._hello:
-                return dialogue
-            dialogue.kill()
-            seen = "its hello was another one than at first"
         raise GivenUp(f"{STARTS} restarts failed one after the other: {seen}")
 
     def _end(self) -> None:

@@ -135,6 +135,8 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     written += write_reports(form, _wanted(options))
     with writing("standard output"):
         click.echo(f"certificate: {' '.join(written)}")
+    if result.changed:
+        stop(result.changed)
     if not form["tested"] or form["reasons"] == ["nothing was tested"]:
         raise SystemExit(3)
     raise SystemExit(0 if verdict(form).good else 1)

@@ -66,7 +66,7 @@ def ask(word: str, target: Sequence[str] | Target, row: GoldenRow, precision: st
         name = f"{hello.name} {hello.version}".strip() or word
         if reason := _unasked(row, hello, precision):
             return Response(word, name, None, reason)
-        ran = run(target, [Question(row.id, row.solid, row.ray)], limits)
+        ran = run(target, [Question(row.id, row.solid, row.ray)], limits, hello=hello)
     except Unusable as error:
         return Response(word, word, None, f"could not be run: {error}")
     return Response(word, name, grade(row, ran.outcomes[row.id], ran.hello))

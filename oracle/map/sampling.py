@@ -96,7 +96,7 @@ def sample(
         with interruptible():
             hello = greet(target, limits)
         _check(hello, raster)
-        outcomes = _asked(target, probes, limits, counting)
+        outcomes = _asked(target, hello, probes, limits, counting)
     found = Map(raster, show, hello)
     compare = Comparison(show, hello, raster.inputs.format)
     try:
@@ -128,7 +128,11 @@ def _check(hello: Hello, raster: Raster) -> None:
 
 
 def _asked(
-    target: Target, probes: dict[At, Probe | Refused], limits: Limits | None, counting: Counting
+    target: Target,
+    hello: Hello,
+    probes: dict[At, Probe | Refused],
+    limits: Limits | None,
+    counting: Counting,
 ) -> dict[At, Outcome]:
     """Return what the target answered; what was known by then if interrupted."""
     places = {f"{at[0]},{at[1]}": at for at in probes}
@@ -144,7 +148,7 @@ def _asked(
 
         try:
             with interruptible():
-                outcomes = run(target, questions, limits, on_progress).outcomes
+                outcomes = run(target, questions, limits, on_progress, hello).outcomes
         except Interrupted as interrupted:
             outcomes = interrupted.run.outcomes
     return {places[id]: outcome for id, outcome in outcomes.items()}

@@ -147,7 +147,7 @@ def client(name: str, target: Target) -> Way:
 
     def solve(cases: Sequence[Case]) -> list[Answered]:
         try:
-            outcomes = run(target, questions(cases)).outcomes
+            outcomes = run(target, questions(cases), hello=hello).outcomes
         except OverflowError:  # numbers that bit patterns of the client's precision cannot hold
             return [None] * len(cases)
         return [_list(outcome) for outcome in outcomes.values()]

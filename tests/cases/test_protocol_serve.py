@@ -5,6 +5,8 @@ from __future__ import annotations
 import io
 import json
 import math
+import subprocess
+import sys
 from collections.abc import Iterable, Iterator
 
 import pytest
@@ -12,12 +14,14 @@ import pytest
 from raycert.cases.formats import FORMATS, SPELLINGS, Spelling
 from raycert.cases.model import Cylinder, Ray, Solid
 from raycert.cases.protocol import (
+    LINE,
     FromInside,
     Hello,
     Pairs,
     Reply,
     answer,
     ask,
+    lines_of,
     read_hello,
     read_reply,
     serve,
@@ -130,3 +134,81 @@ def test_every_line_is_answered_in_order_before_the_next_is_read():
     hello, *answers = out.getvalue().splitlines()
     assert read_hello(hello) == HELLO
     assert [read_reply(text, HELLO).id for text in answers] == [str(n) for n in range(20)]
+
+
+HOSTILE = (
+    b'{"id":NaN}',
+    b'{"id":1e999}',
+    b'{"id":[-Infinity,{"x":Infinity}]}',
+    b'{"id":' + b"[" * 900 + b"]" * 900 + b"}",
+    b'{"id":' + b"[" * 100_000,
+    b'{"id":"7","solid":' + b'{"type":"union","of":[' * 300 + b"]}" * 300 + b"}",
+    b'{"id":"7","solid":' + b'{"type":"union","of":[' * 5000 + b"]}" * 5000 + b"}",
+    b'{"id":"7","solid":' + b"[" * 900 + b"]" * 900 + b"}",
+    b'{"id":"7","solid":{"type":"sphere","center":[1e999,NaN,0],"radius":' + b"9" * 4000 + b"}}",
+    b'{"id":"7","ray":' + b"9" * 100_000 + b"}",
+    b'{"id":"7","solid":{"type":"sphere","center":[0,0,0],"radius":1,"' + b"x" * 90_000 + b'":1}}',
+    b'{"id":"\\ud800","solid":"\\udfff"}',
+    b'{"id":"\xed\xa0\x80","solid":1}',
+    b'{"id":"7","solid":"' + b"x" * LINE + b'"}',
+    b"\x00\xff\xfe",
+    b"",
+)
+"""Lines that no question is."""
+
+
+@pytest.mark.parametrize("name", ["oracle", "reference"])
+def test_whatever_comes_is_answered_and_serving_goes_on(name: str):
+    good = ask("good", CAN, ACROSS, "decimal", HELLO.format)
+    text = b"".join(line + b"\n" + good for line in HOSTILE)
+    command = [sys.executable, "-m", "raycert", "serve", name]
+    served = subprocess.run(command, input=text, capture_output=True, check=True)
+    answers = [json.loads(line) for line in served.stdout.splitlines()]
+    assert answers[1::2] == [{"id": "good", "intervals": [[2.0, 4.0]]}] * len(HOSTILE)
+    for line, message in zip(HOSTILE, answers[::2], strict=True):
+        assert 0 < len(message["error"]) < 1200
+        assert message.get("id") == ("7" if b'"7"' in line else message.get("id"))
+
+
+class Flood(io.BytesIO):
+    """A line of a gigabyte that is nowhere held, and one more."""
+
+    left = 1 << 30
+
+    def readline(self, size: int | None = -1, /) -> bytes:
+        assert size is not None
+        assert 0 < size <= LINE + 1
+        if self.left <= 0:
+            return super().readline(size)
+        self.left -= size
+        return b"x" * size if self.left > 0 else b"\n"
+
+
+def test_a_line_of_a_gigabyte_is_refused_and_not_held():
+    first, *others = lines_of(Flood(b"what\n"))
+    assert others == [b"what\n"]
+    assert len(first) == LINE + 1
+    message = json.loads(answer(first, radius, HELLO))
+    assert message["error"].startswith(f"the line has more than {LINE} bytes: 'xxx")
+
+
+@pytest.mark.parametrize("end", [b"", b"\n"])
+@pytest.mark.parametrize("length", [0, 1, 6, 7, 8, 15, 16, 17])
+def test_lines_are_told_apart_at_the_limit(length: int, end: bytes):
+    begin, body = b"before\n", b"x" * length
+    text = begin + body + end + (b"after" if end else b"")
+    whole = body + end if length <= 7 else body[:8]
+    expected = [begin, whole, b"after" if end else b""]
+    assert list(lines_of(io.BytesIO(text), 7)) == [line for line in expected if line]
+
+
+def test_a_tracer_that_breaks_answers_the_next():
+    def breaks(solid: Solid, ray: Ray) -> Pairs:
+        raise ZeroDivisionError("x" * 5000)
+
+    out = io.BytesIO()
+    asked = ask("7", CAN, ACROSS, "decimal", HELLO.format)
+    serve(breaks, HELLO, [asked, asked], out)
+    errors = [read_reply(line, HELLO).error or "" for line in out.getvalue().splitlines()]
+    assert [error.startswith("ZeroDivisionError: xxx") for error in errors] == [True, True]
+    assert max(map(len, errors)) < 1100

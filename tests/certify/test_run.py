@@ -1,15 +1,18 @@
 """The pipeline: what it asks, what it keeps when it is cut short, what it refuses to begin."""
 
+import json
 import os
 import shutil
 import signal
 import sys
+from collections.abc import Callable
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
+from click.testing import CliRunner
 
 from raycert.cases.corpus import GOLDEN, MANIFEST, manifest
 from raycert.oracle.certify.known import Expectation, Expectations
@@ -26,6 +29,9 @@ from raycert.oracle.certify.run import (
 from raycert.oracle.certify.selection import Selection, Shard
 from raycert.oracle.certify.verdict import by_family
 from raycert.oracle.client.dialogue import Limits, Unusable
+from raycert.oracle.client.replay import Changed
+from raycert.oracle.client.target import target
+from raycert.oracle.commands.main import main
 from raycert.oracle.corpus.fresh import Fresh
 
 GOOD = (sys.executable, "-m", "raycert.reference")
@@ -204,3 +210,81 @@ def test_another_corpus_is_named_in_the_command_that_repeats(tmp_path: Path) -> 
     assert (
         f"--golden {tmp_path / 'golden'} --family rim" in result.form(("reference",))["reproduce"]
     )
+
+
+TURNCOAT = """
+import os, pathlib, sys
+from raycert.cases.protocol import Hello, serve
+from raycert.reference import tracer
+starts = pathlib.Path(__file__).with_name("starts")
+start = len(starts.read_text()) + 1 if starts.exists() else 1
+starts.write_text("x" * start)
+name = "another" if start >= AT else "honest 1.0"
+hello, calls = {"name": name}, [0]
+
+def intersect(solid, ray):
+    calls[0] += 1
+    if start == 3 and calls[0] == 70:
+        os._exit(5)
+    return tracer.intersect(solid, ray)
+
+if __name__ == "__main__":
+    serve(intersect, Hello(name))
+"""
+"""Is another target from start AT on; crashes once in its third start, which is asked the rows."""
+
+
+@pytest.fixture(params=["program", "function"])
+def turncoat(
+    request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Callable[[int], tuple[str, ...]]:
+    monkeypatch.chdir(tmp_path)
+
+    def turning(at: int) -> tuple[str, ...]:
+        (tmp_path / "turncoat.py").write_text(TURNCOAT.replace("AT", str(at), 1))
+        program = sys.executable, str(tmp_path / "turncoat.py")
+        return program if request.param == "program" else ("turncoat:intersect",)
+
+    return turning
+
+
+@pytest.mark.parametrize("at", [2, 3])
+def test_a_target_that_becomes_another_before_the_rows_is_not_tested(
+    turncoat: Callable[[int], tuple[str, ...]], at: int
+) -> None:
+    with pytest.raises(Changed, match=r'"honest 1\.0".* at first, and .*"another"'):
+        certify(Plan(target(turncoat(at)), selection=FEW))
+
+
+def test_a_target_that_becomes_another_ends_the_run_and_what_is_graded_is_kept(
+    turncoat: Callable[[int], tuple[str, ...]], tmp_path: Path
+) -> None:
+    out = tmp_path / "c.json"
+    words = ["certify", "--family", "rim", "--out", str(out), "--", *turncoat(4)]
+    ended = CliRunner().invoke(main, words)
+    assert ended.exit_code == 3, ended.output
+    assert '{"name": "honest 1.0"} at first, and {"name": "another"}' in ended.stderr
+    form = json.loads(out.read_text())
+    assert 64 <= form["tested"] < 70, "answers that it had sent, and no others"
+    assert form["run"]["interrupted"]
+    assert not form["passed"]
+    assert any("became another" in note for note in form["run"]["notes"])
+
+
+@pytest.mark.parametrize("last", ["range", "generic"])
+def test_a_farewell_refuses_whatever_row_is_the_last(last: str, tmp_path: Path) -> None:
+    script = tmp_path / "client.py"
+    script.write_text(
+        "from raycert.cases.protocol import Hello, serve\n"
+        "from raycert.reference.tracer import intersect\n"
+        "serve(intersect, Hello('polite'))\nprint('bye')\n"
+    )
+    rows = prepare(Plan(GOOD, selection=Selection(solids=("sphere",)))).rows
+    ends = {row.tier: row for row in rows}
+    asked = prepare(Plan((sys.executable, str(script)), selection=FEW))
+    two = sorted((ends["range"], ends["generic"]), key=lambda row: row.tier == last)
+    result = conduct(replace(asked, rows=tuple(two)))
+    assert not result.verdict.granted
+    [grade] = [g for g in result.grades if g.faults]
+    assert "bye" in grade.faults["sound"]
+    assert grade.row.tier == "generic"

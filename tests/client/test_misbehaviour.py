@@ -5,7 +5,6 @@ from __future__ import annotations
 import shutil
 import subprocess
 import sys
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +13,7 @@ import pytest
 from raycert.cases.model import Cylinder, Ray
 from raycert.oracle.client.dialogue import Limits, Outcome, Question, Unusable, silence
 from raycert.oracle.client.process import Failure
-from raycert.oracle.client.replay import Run, run
+from raycert.oracle.client.replay import Changed, Run, run
 from raycert.oracle.client.target import target
 from shared.places import CLIENTS, TESTS
 
@@ -59,8 +58,11 @@ LINES = (
     Line("fails on 50 questions in a row, or is silent for 600 s", "given up",
          pipe("faulty", "crash=1"), "in a row", 400, Limits(case=0.3, in_a_row=2)),
     Line("floods its standard error", "answered", pipe("noisy")),
+    Line("says more after its last answer", "bad-line", pipe("farewell", "bye"), "'bye'"),
     Line("ends with another exit status, or not at all", "a note", pipe("farewell", "3"), "3"),
     Line("gives no hello, or a bad one", "cannot be run", pipe("hello", "banner"), "Tracer", 500),
+    Line("gives another hello when it is started again", "the run ends, exit 3",
+         pipe("once", "FILE", "another"), 'at first, and {"name": "another"}', 400),
     Line("declares a name of more than 1000 characters", "cannot be run",
          pipe("hello", "long"), "hello.name has more than 1000", 600),
     Line(f"returns what is no answer {LOADED}", "bad-line", ("planted:silly",), "the str 'xx"),
@@ -78,9 +80,9 @@ def questions(count: int) -> list[Question]:
 
 
 def asked(line: Line, folder: Path) -> Run:
-    words: Sequence[str] = line.words
-    if words == ("./flood.so",):
-        words = (library(folder),)
+    words = [str(folder / "file") if word == "FILE" else word for word in line.words]
+    if words == ["./flood.so"]:
+        words = [library(folder)]
     return run(target(words), questions(12 if line.verdict == "unrepeatable" else 5), line.limits)
 
 
@@ -117,6 +119,8 @@ def test_what_a_target_may_do(line: Line, tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.syspath_prepend("")
     try:
         result = asked(line, tmp_path)
+    except Changed as error:
+        verdict, words = "the run ends, exit 3", str(error)
     except Unusable as error:
         verdict, words = "cannot be run", str(error)
     else:
