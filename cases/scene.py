@@ -186,11 +186,13 @@ def _solids(form: object) -> tuple[tuple[str, Solid], ...]:
         raise Refused("solids", f"is neither a solid, nor named solids: {form!r:.40}")
     if not named:
         raise Refused("solids", "is empty")
+    seen = set[str]()
     for i, (name, _, _) in enumerate(named):
         if not isinstance(name, str) or not name or not name.isprintable():
             raise Refused(f"solids[{i}].name", f"is not a name: {name!r:.40}")
-        if name in [other for other, _, _ in named[:i]]:
+        if name in seen:
             raise Refused(f"solids[{i}].name", f"is the name of an earlier solid: {name!r:.40}")
+        seen.add(name)
     return tuple((name, read_solid(solid, path)) for name, solid, path in named)
 
 

@@ -84,8 +84,8 @@ def read(text: str, file: str = "expectations") -> Expectations:
         raise BadFile(f"{file}: is not TOML: {error}") from None
     except RecursionError:
         raise BadFile(f"{file}: {TOO_DEEP}") from None
-    except ValueError as error:  # an integer of thousands of digits is one to Python
-        raise BadFile(f"{file}: {error}") from None
+    except ValueError:  # of Python, which reads no such decimal
+        raise BadFile(f"{file}: holds an integer of thousands of digits") from None
     for name in form:
         if name != "expect":
             raise BadFile(f"{file}: unknown key {name!r:.40}; only [[expect]] is known")

@@ -154,7 +154,7 @@ def _pixel(scene: Scene, words: str) -> str:
 
     column, _, row = words.partition(",")
     width, height = scene.size
-    if not (column.isdecimal() and row.isdecimal()):
+    if not all(word.isdecimal() and len(word) < 9 for word in (column, row)):
         raise BadInput(f"--pixel: is not X,Y, two whole numbers: {words!r:.40}")
     if not (int(column) < width and int(row) < height):
         raise BadInput(f"--pixel: {words} is not in a picture of {width}x{height}")

@@ -49,7 +49,7 @@ def read(source: str | None, size: str | None) -> tuple[Scene, str]:
         raise BadInput(f"{error}; scenes that come along: {names}") from None
     if size:
         words = size.lower().split("x")
-        if len(words) != 2 or not all(word.isdecimal() for word in words):
+        if len(words) != 2 or not all(word.isdecimal() and len(word) < 9 for word in words):
             raise BadInput(f"--size: is not WxH, such as 320x240: {size!r:.40}")
         try:
             scene = replace(scene, size=read_size([int(word) for word in words], "--size"))

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from raycert.cases.case import Case, Family, KnownEnd
 from raycert.cases.corpus import MANIFEST, encode_rows, manifest, write_whole
+from raycert.cases.files import read_file
 from raycert.cases.formats import FORMATS, Format
 from raycert.cases.interrupts import held
 from raycert.cases.model import Ray, Solid, Tree
@@ -137,7 +138,7 @@ def _compare(folder: Path, name: str, data: bytes) -> Iterator[Drift]:
     if not path.exists():
         yield Drift(name, "is missing")
         return
-    found = path.read_bytes()
+    found = read_file(path, regular=True)
     if found == data:
         return
     lines, wanted = found.split(b"\n"), data.split(b"\n")

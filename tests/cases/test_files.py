@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from functools import cache
 from io import StringIO
 from pathlib import Path
+from time import process_time
 from typing import Any
 
 import pytest
@@ -23,10 +24,10 @@ from raycert.cases import files
 from raycert.cases.case import Case
 from raycert.cases.corpus import MANIFEST, decode_rows, encode_rows, manifest, read_corpus
 from raycert.cases.families import adopted
-from raycert.cases.files import DEEPEST, BadFile, read_as, read_file, read_text
+from raycert.cases.files import DEEPEST, BadFile, decode_json, read_as, read_file, read_text
 from raycert.cases.formats import BINARY64
 from raycert.cases.forms import read_ray, read_solid
-from raycert.cases.scene import SHIPPED, load
+from raycert.cases.scene import SHIPPED, load, read_scene
 from raycert.oracle.certify import known
 from raycert.oracle.commands.main import main
 from raycert.oracle.reports.page import WRITERS
@@ -295,6 +296,38 @@ def test_a_file_may_be_so_large_and_is_readable(
     monkeypatch.setattr(Path, "open", refuse)
     with pytest.raises(BadFile, match=r"manifest\.json: Permission denied"):
         read_corpus("binary64", tmp_path)
+
+
+@pytest.mark.parametrize("power", ["+1024", "+9999", "-99999"])
+def test_a_real_of_a_certificate_is_a_binary64(power: str, tmp_path: Path) -> None:
+    """Beyond it, `float.fromhex` has no number, and a report had a traceback."""
+    path, form = tmp_path / "x.json", json.loads(_certificate())
+    form["failures"][0]["expected"] = [["0x1.0000000000000p+0", f"0x1.0000000000000p{power}"]]
+    path.write_text(json.dumps(form))
+    result = run("report", path)
+    assert result.exit_code == 2, result.output
+    assert "certificate.failures[0].expected[0][1]" in result.stderr
+
+
+def test_many_names_take_no_longer_each() -> None:
+    """Of a million solids or keys none is compared with all the others."""
+    ball = {"type": "sphere", "center": [0, 0, 0], "radius": 1}
+    form = {"solids": [{"name": str(n), "solid": ball} for n in range(20_000)]}
+    camera = {"type": "orthographic", "eye": [0, -9, 0], "look_at": [0, 0, 0], "up": [0, 0, 1]}
+    form |= {"camera": camera | {"height": 2}, "size": [2, 2]}
+    began = process_time()
+    read_scene(form)
+    keys = ",".join(f'"{n}":0' for n in (*range(40_000), 39_999))
+    with pytest.raises(ValueError, match="'39999' occurs twice"):
+        decode_json(f"{{{keys}}}")
+    assert process_time() - began < 2
+
+
+@pytest.mark.parametrize("words", [("--size", "9" * 5000 + "x9"), ("--pixel", "0," + "9" * 5000)])
+def test_pixels_of_thousands_of_digits_are_refused(words: tuple[str, str]) -> None:
+    result = run("render", "die", *words)
+    assert result.exit_code == 2, result.output
+    assert words[0] in result.stderr
 
 
 @pytest.mark.parametrize("word", ["1_0", "\uff11", " 1", "1e5 ", "1e999", "nan", "0x", ""])
