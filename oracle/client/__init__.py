@@ -1,5 +1,6 @@
 """What an implementation answers, whatever it does: each failure is pinned on its own question.
 
+apart        our processes, kept from the files of their user
 process      one live program: lines in, lines out, and no deadlock
 descendants  whom a client has started, found and ended wherever they went
 dialogue     questions to a target, answers in order; a program that speaks the line protocol

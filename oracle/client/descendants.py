@@ -21,6 +21,7 @@ from itertools import count
 from pathlib import Path
 
 from raycert.cases import interrupts
+from raycert.oracle.client import apart
 
 VARIABLE = "RAYCERT_CLIENT"
 OWN = secrets.token_hex(8)
@@ -39,7 +40,7 @@ def environment() -> tuple[str, dict[str, str]]:
     if interrupts.alone():
         _adopt()
     mark = f"{OWN}.{next(_numbers)};"
-    return mark, {**os.environ, VARIABLE: os.environ.get(VARIABLE, "") + mark}
+    return mark, {**apart.environment(), VARIABLE: os.environ.get(VARIABLE, "") + mark}
 
 
 def _adopt() -> None:

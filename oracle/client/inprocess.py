@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import json
 import pickle
-import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, fields
 from typing import Any, Literal, TypeVar
 
 from raycert.cases.model import SOLIDS, Ray, Solid, Tree
 from raycert.cases.protocol import Answers, BadLine, Hello, Reply, cut, most_pairs, read_hello
+from raycert.oracle.client.apart import ours
 from raycert.oracle.client.dialogue import Dialogue, Limits, Outcome, Question, Unusable, too_much
 from raycert.oracle.client.process import Broken, Failure, Process, shown
 
@@ -42,7 +42,7 @@ class WorkerDialogue(Dialogue):
 
     def __init__(self, target: InProcess, limits: Limits) -> None:
         self._spec = target.spec
-        command = [sys.executable, "-P", "-m", WORKER, target.kind, target.spec]
+        command = ours(WORKER, target.kind, target.spec)
         super().__init__(Process(command, LINE), limits)
 
     def _greet(self) -> Hello:

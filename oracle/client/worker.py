@@ -35,8 +35,11 @@ from array import array
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
+from importlib.machinery import PathFinder
+from importlib.util import module_from_spec
 from itertools import islice
 from pathlib import Path
+from types import ModuleType
 from typing import BinaryIO, SupportsFloat
 
 from raycert.cases.formats import Format
@@ -161,16 +164,14 @@ class Loaded:
 
 
 def load_callable(spec: str) -> Loaded:
-    """Load `module:function`; the current directory is searched first. Raises `CannotLoad`.
+    """Load `module:function`, of the current directory where it is there. Raises `CannotLoad`.
 
     A dict `hello` that the function or else its module has declares it, with the fields of the
     protocol's hello; where there is none, it is a closed binary64 tracer of every solid.
     """
     module_name, _, path = spec.partition(":")
-    if "" not in sys.path:
-        sys.path.insert(0, "")
     try:
-        module = importlib.import_module(module_name)
+        module = _module(module_name)
     except (Exception, SystemExit) as error:
         raise CannotLoad(
             f"cannot import {module_name!r}: {described(error)}. The target is MODULE:FUNCTION, "
@@ -191,6 +192,30 @@ def load_callable(spec: str) -> Loaded:
         )
     declared = getattr(function, "hello", getattr(module, "hello", {}))
     return Loaded(_declared(declared, spec), function)
+
+
+def _module(name: str) -> ModuleType:
+    """Import a module of the user, as a script of theirs that lies in the current directory would.
+
+    One that has the name of a module that is loaded already is loaded beside it, for the rest of
+    the process has to find what it means by that name.
+    """
+    if "" not in sys.path:
+        sys.path.insert(0, "")
+    top, _, inner = name.partition(".")
+    spec, taken = PathFinder.find_spec(top, [""]), sys.modules.get(top)
+    if not taken or not spec or not spec.loader or spec.origin == _origin(taken):
+        return importlib.import_module(name)
+    if inner:
+        raise ImportError(f"{top!r} is the name of a module that is loaded already ({taken!r})")
+    module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def _origin(module: ModuleType) -> str | None:
+    """Return the file of a module."""
+    return module.__spec__.origin if module.__spec__ else None
 
 
 def _declared(fields: object, spec: str) -> Hello:

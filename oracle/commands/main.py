@@ -145,7 +145,3 @@ def main(**_: Any) -> None:
     A ray f(t) = u + t v meets a solid in intervals [(enter, leave), ...]. raycert knows them
     exactly, grades what an implementation answers, and shows where it goes wrong.
     """
-
-
-if __name__ == "__main__":
-    main()

@@ -144,8 +144,8 @@ def check_convention(text: str) -> None:
 # The implementation that is asked.
 
 BUILT_IN = {
-    "oracle": ("-m", "raycert.oracle.commands.main", "serve", "oracle"),
-    "reference": ("-m", "raycert.reference"),
+    "oracle": ("raycert", "serve", "oracle"),
+    "reference": ("raycert.reference",),
 }
 TARGETS = """\b
 TARGET is one of
@@ -177,11 +177,12 @@ def limits(options: dict[str, Any]) -> Limits:
 
 def aim(words: tuple[str, ...]) -> Target:
     """Return the target that the words name; end with exit status 3 where they name none."""
+    from raycert.oracle.client.apart import ours
     from raycert.oracle.client.dialogue import Unusable
     from raycert.oracle.client.target import target
 
     if len(words) == 1 and words[0] in BUILT_IN:
-        words = (sys.executable, *BUILT_IN[words[0]])
+        words = ours(*BUILT_IN[words[0]])
     try:
         return target(words)
     except Unusable as error:

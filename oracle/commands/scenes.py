@@ -6,18 +6,18 @@ The tracer runs in `python -m raycert.reference.arrays`: asked in JSON, it answe
 from __future__ import annotations
 
 import subprocess
-import sys
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from raycert.oracle.client.apart import ours
 from raycert.oracle.commands.options import BadInput, stop
 
 if TYPE_CHECKING:
     from raycert.cases.scene import Scene
 
-COMMAND = ("-m", "raycert.reference.arrays")
+COMMAND = ours("raycert.reference.arrays")
 Tracer = subprocess.Popen[bytes]
 
 scene_argument = click.argument("scene", required=False)
@@ -66,9 +66,7 @@ def start(scene: Scene, show: str, tracer: str, off: tuple[str, ...]) -> Tracer:
 
     task = {"task": "render", "show": show, "tracer": tracer, "off": off}
     try:
-        process = subprocess.Popen(
-            [sys.executable, *COMMAND], stdin=subprocess.PIPE, stdout=subprocess.PIPE
-        )
+        process = subprocess.Popen(COMMAND, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
     except OSError as error:
         stop(f"the tracer does not start: {error}")
     assert process.stdin is not None

@@ -32,9 +32,10 @@ def serve(name: str, precision: str, numbers: str) -> None:
         if (precision, numbers) != ("binary64", "decimal"):
             raise click.UsageError("the reference speaks binary64 in decimals only")
         import subprocess
-        import sys
 
-        raise SystemExit(subprocess.call([sys.executable, "-m", "raycert.reference"]))
+        from raycert.oracle.client.apart import ours
+
+        raise SystemExit(subprocess.call(ours("raycert.reference")))
     _serve_oracle(precision, numbers)
 
 

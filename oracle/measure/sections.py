@@ -20,6 +20,7 @@ from typing import Any
 from raycert.cases.interrupts import interruptible
 from raycert.cases.protocol import VERSION, ask, encode
 from raycert.oracle import starters
+from raycert.oracle.client.apart import ours
 from raycert.oracle.client.dialogue import Question, fresh_ids
 from raycert.oracle.client.process import Failure
 from raycert.oracle.client.replay import greet
@@ -192,8 +193,8 @@ for line in sys.stdin:
     print('{"id": "%s", "intervals": [[2.0, 4.0]]}' % json.loads(line)["id"], flush=True)
 """
 CLIENTS = {
-    "reference": (sys.executable, "-m", "raycert.reference"),
-    "constant": (sys.executable, "-c", CONSTANT),
+    "reference": ours("raycert.reference"),
+    "constant": (sys.executable, "-P", "-c", CONSTANT),
 }
 
 
@@ -279,7 +280,7 @@ def command(line: str, repeats: int) -> Data:
     """Return the wall time of one command; `CalledProcessError` if it fails."""
     with tempfile.TemporaryDirectory() as folder:
         words = line.format(folder=Path(folder).as_posix()).split()
-        whole = [sys.executable, "-m", "raycert.oracle.commands.main", *words]
+        whole = ours("raycert", *words)
 
         def run() -> Timed:
             return wall(lambda: subprocess.run(whole, check=True, capture_output=True))

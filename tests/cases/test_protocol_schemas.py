@@ -145,7 +145,7 @@ def test_whatever_is_served_is_described(answers: Any, numbers: Spelling) -> Non
     "command",
     [
         ["-m", "raycert.reference"],
-        ["-m", "raycert.oracle.commands.main", "serve", "oracle"],
+        ["-m", "raycert", "serve", "oracle"],
         ["starter"],
     ],
     ids=lambda command: command[-1],

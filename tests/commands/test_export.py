@@ -1,7 +1,6 @@
 """The export read back by a small parser that knows the grammar and nothing else."""
 
 import struct
-from collections.abc import Iterator
 from dataclasses import fields
 from math import inf
 from pathlib import Path
@@ -11,50 +10,21 @@ import pytest
 from click.testing import CliRunner, Result
 
 from raycert.cases.accept import Accept
-from raycert.cases.case import Case, Family
 from raycert.cases.corpus import read_corpus
-from raycert.cases.formats import FORMATS, Format
-from raycert.cases.model import (
-    Cylinder,
-    Difference,
-    HalfSpace,
-    InfiniteCylinder,
-    Ray,
-    Slab,
-    Sphere,
-    Union,
-)
+from raycert.cases.formats import FORMATS
+from raycert.cases.model import HalfSpace, InfiniteCylinder
 from raycert.oracle.commands.export import COLUMNS, export, merged_ends
-from raycert.oracle.corpus.golden import write
 from raycert.oracle.exact.surd import enclose
 from raycert.oracle.judge.levels import Judge
 from shared.corpus import golden as known
+from shared.small_corpus import write_small
 
-UNIT = Cylinder((0, 0, 0), (0, 0, 2), 1)
-TREE = Difference((Sphere((0, 0, 0), 2), Union((UNIT, HalfSpace((0, 0, 0), (1, 0, 0))))))
 SIZES = {"half_space": 6, "sphere": 4, "infinite_cylinder": 7, "slab": 6, "cylinder": 7}
-
-
-def cases(fmt: Format) -> Iterator[Case]:
-    yield Case("through", "A ray crosses.", UNIT, Ray((-3, 0, 1), (1, 0, 0)), "lattice")
-    yield Case("tangent", "A ray touches.", UNIT, Ray((-3, 1, 1), (1, 0, 0)), "lattice")
-    yield Case("miss", "A ray misses.", UNIT, Ray((-3, 9, 1), (1, 0, 0)), "lattice")
-    slab = Slab((0, -0.0, 0), (0, 0, 2))
-    yield Case("slab", "A ray stays in a slab.", slab, Ray((0, 0, 1), (1, 1, 0)), "generic")
-    tube = InfiniteCylinder((0, 0, 0), (0, 0.25, 2), 0.75)
-    yield Case("tube", "A ray crosses a tube.", tube, Ray((-3, 0.125, 1), (1, 0, 0.5)), "stiff")
-
-
-def trees(fmt: Format) -> Iterator[Case]:
-    yield Case("tree", "A carved ball.", TREE, Ray((-3, 0, 1), (1, 0, 0.0625)), "generic")
 
 
 @pytest.fixture(scope="module")
 def golden(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("golden")
-    families = (Family("plain", "The plain ones.", cases), Family("tree", "Trees.", trees))
-    write(folder, families, lambda _: None)
-    return folder
+    return write_small(tmp_path_factory.mktemp("golden"))
 
 
 def run(golden: Path, *words: str) -> Result:
@@ -127,7 +97,7 @@ def test_the_file_says_what_the_rows_say(golden: Path, precision: str, pack: str
     assert result.exit_code == 0
     lines = [line for line in result.stdout.split("\n") if line and not line.startswith("#")]
     rows = read_corpus(precision, golden).rows
-    assert len(lines) == len(rows) == 6
+    assert len(lines) == len(rows) == 7
     for line, row in zip(lines, rows, strict=True):
         assert len(line.split("\t")) == len(COLUMNS)
         assert all(cell == cell.strip() != "" for cell in line.split("\t"))
@@ -187,7 +157,7 @@ def test_the_header_documents_the_grammar(golden: Path) -> None:
     ("words", "ids"),
     [
         ("--family tree", ["tree/tree"]),
-        ("--tier stiff --tier generic", ["plain/slab", "plain/tube", "tree/tree"]),
+        ("--tier stiff --tier generic", ["plain/slab", "plain/tube", "plain/far", "tree/tree"]),
         ("--solids slab,infinite_cylinder", ["plain/slab", "plain/tube"]),
         ("--solids difference,sphere,union,cylinder,half_space --family tree", ["tree/tree"]),
     ],
@@ -208,7 +178,7 @@ def test_a_file_is_written_whole(golden: Path, tmp_path: Path) -> None:
     result = run(golden, "--out", str(path))
     assert result.exit_code == 0
     assert result.stdout == ""
-    assert "6 rows" in result.stderr
+    assert "7 rows" in result.stderr
     assert path.read_text() == run(golden).stdout
     assert path.read_bytes().isascii()
 

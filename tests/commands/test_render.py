@@ -122,7 +122,7 @@ def test_a_missing_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_a_tracer_that_fails_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(scenes, "COMMAND", ("-c", "raise SystemExit(1)"))
+    monkeypatch.setattr(scenes, "COMMAND", (sys.executable, "-c", "raise SystemExit(1)"))
     result = run("die")
     assert result.exit_code == 3
     assert "the tracer failed" in result.output
