@@ -77,7 +77,7 @@ def _certificate() -> bytes:
 
 def _reports(path: Path) -> object:
     form = read_as(path, read_file(path), check)
-    report(form, Console(file=StringIO()), None)
+    report(form, Console(file=StringIO()))
     return [write(form) for write in WRITERS.values()]
 
 
