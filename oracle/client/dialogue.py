@@ -32,6 +32,7 @@ from raycert.cases.protocol import (
 from raycert.oracle.client.process import GRACE, Broken, Failure, Process, shown
 
 Outcome = Reply | Failure
+LEFT = "a process that it started has left its session and may still run: end it by hand"
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,13 +168,16 @@ class Dialogue(ABC):
                 raise Broken(too_much(more))
             ending = self._process.status()
         finally:
-            self.kill()
+            left = self.kill()
+        if left:
+            return left
         if ending == "did not end":
             return "it did not end when its input ended, and was killed"
         return "" if ending == "ended with exit status 0" else f"after its input ended it {ending}"
 
-    def kill(self) -> None:
-        self._process.kill()
+    def kill(self) -> str:
+        """Leave nothing behind; return what could not be ended, or nothing."""
+        return "" if self._process.kill() else LEFT
 
     def _unasked(self) -> bytes:
         """Return what has come beside the answers."""

@@ -159,8 +159,11 @@ class Process:
         before = "" if self._flood <= TAIL and len(lines) <= 10 else f"(of {self._flood} bytes) ..."
         return before + "\n".join(lines[-10:])
 
-    def kill(self) -> None:
-        """Leave nothing behind: end the program and whom it has started, then the threads."""
+    def kill(self) -> bool:
+        """End the program and whom it has started, then the threads.
+
+        Returns whether that succeeded: somebody who could not be found may hold a pipe open.
+        """
         with held():
             self._popen.kill()
             descendants.kill_group(self._mark)
@@ -168,13 +171,13 @@ class Process:
             with contextlib.suppress(subprocess.TimeoutExpired):
                 self._popen.wait(10)
             descendants.end(self._mark)
-            # A thread outlives this only where one that could not be found holds the pipe.
             deadline = time.monotonic() + GRACE
             while any(thread.is_alive() for thread in self._threads):
                 if time.monotonic() > deadline:
-                    break
+                    return False
                 with contextlib.suppress(queue.Empty):
                     self._in.get(timeout=0.005)
+            return True
 
     def _chunk(self, deadline: float) -> bytes | None:
         """Return the next bytes; b"" at the end; None if the time is up."""

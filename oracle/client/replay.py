@@ -169,7 +169,12 @@ class Replay:
     def kill(self) -> None:
         dialogue, self._dialogue = self._dialogue, None
         if dialogue is not None:
-            dialogue.kill()
+            self._note(dialogue.kill())
+
+    def _note(self, text: str) -> None:
+        """Keep what is odd, if it is anything, once."""
+        if text and text not in self._notes:
+            self._notes.append(text)
 
     def _stream(self) -> None:
         """Ask the pending questions, many at a time, until all are answered or one fails."""
@@ -289,8 +294,7 @@ class Replay:
                 self._blame(dialogue, broken.failure)
             return
         self._dialogue = None
-        if note:
-            self._notes.append(note)
+        self._note(note)
 
     def _abandon(self, reason: str) -> None:
         """Give all that have no outcome the kind of the last failure, and say why."""

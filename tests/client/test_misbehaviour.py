@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 import sys
@@ -60,6 +61,8 @@ LINES = (
     Line("floods its standard error", "answered", pipe("noisy")),
     Line("says more after its last answer", "bad-line", pipe("farewell", "bye"), "'bye'"),
     Line("ends with another exit status, or not at all", "a note", pipe("farewell", "3"), "3"),
+    Line("starts processes that leave its session", "answered",
+         pipe("family", os.devnull, "escapes")),
     Line("gives no hello, or a bad one", "cannot be run", pipe("hello", "banner"), "Tracer", 500),
     Line("gives another hello when it is started again", "the run ends, exit 3",
          pipe("once", "FILE", "another"), 'at first, and {"name": "another"}', 400),

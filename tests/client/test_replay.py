@@ -17,7 +17,8 @@ import pytest
 
 from raycert.cases.model import Cylinder, Ray
 from raycert.cases.protocol import Reply
-from raycert.oracle.client.dialogue import Limits, Question, Unusable, fresh_ids
+from raycert.oracle.client import descendants
+from raycert.oracle.client.dialogue import LEFT, Limits, Question, Unusable, fresh_ids
 from raycert.oracle.client.process import Failure
 from raycert.oracle.client.replay import Interrupted, Run, greet, run
 from shared.places import CLIENTS
@@ -279,6 +280,19 @@ def test_a_child_that_left_the_session_holds_nobody_up_and_ends(tmp_path: Path, 
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGKILL)
         stranger.wait()
+
+
+def test_whom_the_system_does_not_let_us_find_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(descendants, "_found", lambda _: ())
+    pids = tmp_path / "pids"
+    try:
+        result = run(command("family", pids, "dies", "escapes"), questions(6), Limits(case=3.0))
+        assert result.notes == (LEFT,)
+    finally:
+        for word in pids.read_text().split():
+            os.kill(int(word), signal.SIGKILL)
 
 
 def test_threads_and_pipes_are_given_back():
