@@ -10,16 +10,16 @@ import hashlib
 import json
 import os
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Set
 from dataclasses import dataclass
 from pathlib import Path
 from secrets import token_hex
-from typing import Any
+from typing import Any, NamedTuple
 
 from raycert.cases.files import BadFile, read_as, read_file
 from raycert.cases.formats import FORMATS, Format
 from raycert.cases.forms import fields_of
-from raycert.cases.model import Refused
+from raycert.cases.model import SOLIDS, Refused, type_of
 from raycert.cases.row import GoldenRow, read_row, row_of, write_row
 
 FORMAT_VERSION = 1
@@ -29,17 +29,48 @@ MANIFEST = "manifest.json"
 NAME = re.compile(rf"({'|'.join(FORMATS)})/[a-z0-9]+(-[a-z0-9]+)*\.jsonl")
 VERSION = re.compile(r"[0-9]{4}\.[0-9]+")
 WORDS = {"rows": "has {} rows", "sha256": "SHA-256 differs: it is {}"}
+START = re.compile(
+    rb'{"id":"([a-z0-9/-]+)","why":"(?:[^"\\]|\\.)*","flags":\[[^]]*\],"tier":"([a-z]+)",'
+    rb'"source":"(?:[^"\\]|\\.)*","solid":{"type":"([a-z_]+)"'
+)
+"""How the line of a row begins: id, tier and type of the solid."""
+TYPE = re.compile(rb'"type":"([a-z_]+)"')
 _LINE = json.JSONEncoder(separators=(",", ":")).encode
+
+
+class Heading(NamedTuple):
+    """What a row is found by; `solid` is the type of its solid, of a tree the root's."""
+
+    id: str
+    tier: str
+    solid: str
+
+    @classmethod
+    def of(cls, row: GoldenRow) -> Heading:
+        return cls(row.id, row.tier, type_of(row.solid))
+
+    @property
+    def family(self) -> str:
+        return self.id.partition("/")[0]
 
 
 @dataclass(frozen=True, slots=True)
 class Corpus:
-    """The rows of one precision, in the order of the files, and what identifies them."""
+    """The rows of one precision, in the order of the files, and what identifies them.
+
+    Of rows that nobody needs only the heading may have been read.
+    """
 
     rows: tuple[GoldenRow, ...]
     precision: str
     version: str
     sha256: str
+    unread: tuple[Heading, ...] = ()
+
+    @property
+    def headings(self) -> tuple[Heading, ...]:
+        """Return the headings of all rows, those that were read first."""
+        return (*map(Heading.of, self.rows), *self.unread)
 
     @property
     def format(self) -> Format:
@@ -60,15 +91,30 @@ def decode_rows(data: bytes, fmt: Format, name: str) -> Iterator[GoldenRow]:
     A line is a row only as it is written, to the byte: no key twice, no other order, no digit more.
     """
     for number, line in enumerate(data.splitlines(), 1):
-        try:
-            form = json.loads(line)
-            row = row_of(form, fmt)
-            if encode_rows((row,), fmt)[:-1] != line:
-                read_row(form, fmt)
-                raise ValueError("is not spelled as a row is written: keys, their order, spaces")
-            yield row
-        except (ValueError, RecursionError) as error:
-            raise BadFile(f"{name}:{number}: {error}") from None
+        yield _decode_row(line, fmt, f"{name}:{number}")
+
+
+def _decode_row(line: bytes, fmt: Format, place: str) -> GoldenRow:
+    try:
+        form = json.loads(line)
+        row = row_of(form, fmt)
+        if encode_rows((row,), fmt)[:-1] != line:
+            read_row(form, fmt)
+            raise ValueError("is not spelled as a row is written: keys, their order, spaces")
+    except (ValueError, RecursionError) as error:
+        raise BadFile(f"{place}: {error}") from None
+    return row
+
+
+def _heading(line: bytes, unwanted: Set[str]) -> Heading | None:
+    """Return the heading of a row with a part of an unwanted type; None where it has to be read.
+
+    In JSON a text has its quotation marks escaped, so that what looks like a type is one.
+    """
+    if not unwanted or unwanted.isdisjoint(map(bytes.decode, TYPE.findall(line))):
+        return None
+    start = START.match(line)
+    return Heading(*map(bytes.decode, start.groups())) if start else None
 
 
 def manifest(files: dict[str, bytes]) -> bytes:
@@ -118,27 +164,32 @@ def _entry(data: bytes) -> dict[str, Any]:
     return {"rows": data.count(b"\n"), "sha256": hashlib.sha256(data).hexdigest()}
 
 
-def read_corpus(precision: str = "binary64", folder: Path = GOLDEN) -> Corpus:
+def read_corpus(
+    precision: str = "binary64", folder: Path = GOLDEN, solids: Iterable[str] = tuple(SOLIDS)
+) -> Corpus:
     """Return the rows of one precision, each file checked against the manifest.
 
-    Raises `BadFile` for a file that is missing, altered, or holds what is no row of its family.
+    Only rows whose solid is made of these types are read, and of the others the headings. Raises
+    `BadFile` for a file that is missing, altered, or holds what is no row of its family.
     """
-    form = read_manifest(folder)
-    rows: list[GoldenRow] = []
-    seen: set[str] = set()
+    form, unwanted = read_manifest(folder), SOLIDS.keys() - set(solids)
+    rows: dict[str, GoldenRow | Heading] = {}
     for name, entry in form["files"].items():
         if not name.startswith(f"{precision}/"):
             continue
-        data = golden_file(folder, name, entry)
-        for row in decode_rows(data, FORMATS[precision], str(folder / name)):
-            if row.id in seen:
-                raise BadFile(f"{folder / name}: the id {row.id} occurs twice")
+        path = folder / name
+        for number, line in enumerate(golden_file(folder, name, entry).splitlines(), 1):
+            row = _heading(line, unwanted)
+            row = row or _decode_row(line, FORMATS[precision], f"{path}:{number}")
+            if row.id in rows:
+                raise BadFile(f"{path}: the id {row.id} occurs twice")
             if name != f"{precision}/{row.family}.jsonl":
-                raise BadFile(f"{folder / name}: the id {row.id} is of another family")
-            seen.add(row.id)
-            rows.append(row)
+                raise BadFile(f"{path}: the id {row.id} is of another family")
+            rows[row.id] = row
     digest = hashlib.sha256(read_file(folder / MANIFEST, regular=True)).hexdigest()
-    return Corpus(tuple(rows), precision, form["corpus"], digest)
+    read = tuple(row for row in rows.values() if isinstance(row, GoldenRow))
+    unread = tuple(row for row in rows.values() if isinstance(row, Heading))
+    return Corpus(read, precision, form["corpus"], digest, unread)
 
 
 def write_whole(path: Path, data: bytes) -> None:

@@ -142,7 +142,7 @@ def _question(request: Request, hello: Hello, corpus: Corpus, shard: str | None)
             "format": FORMAT_VERSION,
             "manifest_sha256": corpus.sha256,
             "precision": corpus.precision,
-            "rows": len(corpus.rows),
+            "rows": len(corpus.headings),
         },
     }
 

@@ -156,8 +156,8 @@ def prepare(plan: Plan) -> Prepared:
     Raises `Unusable` (no hello), `BadFile`, `NotInCorpus` and `Unsuitable` (no rows).
     """
     hello, fresh = greet(plan.target, plan.limits), tuple[GoldenRow, ...]()
-    corpus = read_corpus(hello.precision, plan.golden)
-    if not corpus.rows:
+    corpus = read_corpus(hello.precision, plan.golden, hello.solids)
+    if not corpus.headings:
         raise Unsuitable(f"there are no rows in {hello.precision} in {plan.golden}")
     if plan.fresh:
         fresh = fresh_rows(plan.fresh.seed, plan.fresh.count, hello.format, hello.solids)

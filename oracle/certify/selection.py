@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 
-from raycert.cases.corpus import Corpus
+from raycert.cases.corpus import Corpus, Heading
 from raycert.cases.model import type_of, types
 from raycert.cases.protocol import Hello
 from raycert.cases.row import GoldenRow
@@ -54,8 +54,8 @@ NAMES = {"solids": "--solid", "tiers": "--tier", "families": "--family", "ids": 
 """The fields of a selection that list values, each with its option."""
 
 
-def _values(row: GoldenRow) -> dict[str, str]:
-    return {"solids": type_of(row.solid), "tiers": row.tier, "families": row.family, "ids": row.id}
+def _values(row: Heading) -> dict[str, str]:
+    return {"solids": row.solid, "tiers": row.tier, "families": row.family, "ids": row.id}
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +79,7 @@ class Selection:
     """Only the smoke rows, which `select` knows."""
 
     def takes(self, row: GoldenRow) -> bool:
-        values = _values(row).items()
+        values = _values(Heading.of(row)).items()
         named = all(value in (getattr(self, name) or (value,)) for name, value in values)
         return named and (self.shard is None or self.shard.takes(row.id))
 
@@ -95,10 +95,14 @@ class Selection:
 
     def missing(self, corpus: Corpus, fresh: Sequence[GoldenRow] = ()) -> list[str]:
         """Return what is asked for and neither in the corpus nor among the fresh rows."""
-        known = {item for row in (*corpus.rows, *fresh) for item in _values(row).items()}
+        known = {item for row in _headings(corpus, fresh) for item in _values(row).items()}
         return [
             value for name in NAMES for value in getattr(self, name) if (name, value) not in known
         ]
+
+
+def _headings(corpus: Corpus, fresh: Sequence[GoldenRow]) -> list[Heading]:
+    return [*corpus.headings, *map(Heading.of, fresh)]
 
 
 def able(rows: Iterable[GoldenRow], hello: Hello) -> list[GoldenRow]:
@@ -114,11 +118,11 @@ def select(
 
     `fresh` rows are asked beside those of the corpus, and narrowed like them.
     """
-    every = (*corpus.rows, *fresh)
     golden = corpus.rows
     if selection.smoke:  # in their own order; those that another corpus lacks are left out
         by_id = {row.id: row for row in corpus.rows}
         golden = tuple(by_id[id] for id in smoke(corpus.precision) if id in by_id)
     rows = [row for row in able((*golden, *fresh), hello) if selection.takes(row)]
-    roots = [{type_of(row.solid) for row in some} for some in (every, rows)]
-    return rows, Left(tuple(sorted(roots[0] - roots[1])), len(every) - len(rows))
+    every = _headings(corpus, fresh)
+    left = {row.solid for row in every} - {type_of(row.solid) for row in rows}
+    return rows, Left(tuple(sorted(left)), len(every) - len(rows))

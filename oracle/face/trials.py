@@ -125,7 +125,7 @@ def _in_this_process(tracer: Intersect, name: str, plan: Plan) -> Result:
     """Ask every row by a call."""
     declared: dict[str, Any] = {"name": name, **getattr(tracer, "hello", {})}
     hello, began = Hello(**declared), time.monotonic()
-    corpus = read_corpus(hello.precision)
+    corpus = read_corpus(hello.precision, solids=hello.solids)
     if absent := plan.selection.missing(corpus):
         raise run.NotInCorpus(f"not in the corpus: {', '.join(absent)}")
     rows, left = select(corpus, hello, plan.selection)

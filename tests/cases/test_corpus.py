@@ -31,6 +31,7 @@ from raycert.cases.corpus import (
 )
 from raycert.cases.files import BadFile
 from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
+from raycert.cases.model import SOLIDS, types
 from raycert.cases.row import GoldenRow, read_row, write_row
 from shared.corpus import golden
 from shared.rows import CAN, RAYS, WRONG, fresh, made, parent, paths, same_kind
@@ -141,6 +142,37 @@ def test_a_malformed_line_is_named(
     restamp(tmp_path, b"\n".join(lines))
     with pytest.raises(BadFile, match=rf"/binary64/hand\.jsonl:3: .*({message})"):
         read_corpus("binary64", tmp_path)
+
+
+@pytest.mark.parametrize("solids", [("sphere",), ("slab", "union", "difference"), tuple(SOLIDS)])
+def test_rows_that_nobody_needs_are_known_by_their_headings(solids: tuple[str, ...]) -> None:
+    whole, some = golden(), read_corpus(solids=solids)
+    assert some.rows == tuple(row for row in whole.rows if types(row.solid) <= set(solids))
+    assert set(some.headings) == set(whole.headings)
+    assert len(some.headings) == len(whole.rows)
+    assert some.sha256 == whole.sha256
+
+
+def test_only_what_is_a_type_counts_as_one(tmp_path: Path) -> None:
+    """A text has its quotation marks escaped."""
+    row = replace(some_rows()[0], why='Not "type":"sphere", "solid":{"type":"slab"')
+    restamp(tmp_path, encode_rows([row, some_rows()[1]], BINARY64))
+    assert read_corpus("binary64", tmp_path, ["cylinder"]).rows == (row, some_rows()[1])
+    none = read_corpus("binary64", tmp_path, ["sphere", "slab"])
+    assert not none.rows
+    assert none.headings == tuple((row.id, row.tier, "cylinder") for row in some_rows()[:2])
+
+
+def test_what_is_not_read_has_a_heading_or_is_refused(tmp_path: Path) -> None:
+    lines = encode_rows(some_rows(), BINARY64).split(b"\n")
+    for spoiled, message in (
+        (lines[0].replace(b'"tier"', b'"tear"'), r":1: row.tier: is missing"),
+        (lines[1], "the id hand/[a-z]+ occurs twice"),
+        (lines[0].replace(b"hand/", b"foot/"), "of another family"),
+    ):
+        restamp(tmp_path, b"\n".join([spoiled, *lines[1:]]))
+        with pytest.raises(BadFile, match=message):
+            read_corpus("binary64", tmp_path, ["sphere"])
 
 
 def test_a_row_of_another_precision_is_refused() -> None:

@@ -10,7 +10,7 @@ from shared.corpus import golden
 
 @pytest.fixture(autouse=True)
 def one_reading(monkeypatch: pytest.MonkeyPatch) -> None:
-    def read(precision: str = "binary64", folder: Path = GOLDEN) -> Corpus:
-        return golden(precision) if folder == GOLDEN else read_corpus(precision, folder)
+    def read(precision: str, folder: Path, solids: tuple[str, ...]) -> Corpus:
+        return golden(precision) if folder == GOLDEN else read_corpus(precision, folder, solids)
 
     monkeypatch.setattr("raycert.oracle.certify.run.read_corpus", read)

@@ -15,6 +15,7 @@ import pytest
 from click.testing import CliRunner
 
 from raycert.cases.corpus import GOLDEN, MANIFEST, manifest
+from raycert.cases.model import Sphere
 from raycert.oracle.certify.known import Expectation, Expectations
 from raycert.oracle.certify.run import (
     BLOCK,
@@ -33,6 +34,7 @@ from raycert.oracle.client.replay import Changed
 from raycert.oracle.client.target import target
 from raycert.oracle.commands.main import main
 from raycert.oracle.corpus.fresh import Fresh
+from shared.corpus import golden
 
 GOOD = (sys.executable, "-m", "raycert.reference")
 FEW = Selection(families=("rim", "far-deep"))
@@ -84,6 +86,15 @@ def test_fresh_rows_are_asked_beside_the_golden_ones() -> None:
     assert form["fresh"] == {"seed": 5, "rows": 30}
     assert "--seed 5 --fresh 30" in form["reproduce"]
     assert not form["granted"]
+
+
+def test_the_corpus_is_counted_whole_and_read_in_part(tmp_path: Path) -> None:
+    (tmp_path / "golden").symlink_to(GOLDEN)
+    command = planted(tmp_path, "BY_NAME['no-clip'].make()", "'ball', solids=('sphere',)")
+    plan = Plan(command, selection=Selection(families=("sphere-far",)), golden=tmp_path / "golden")
+    prepared = prepare(plan)
+    assert {type(row.solid) for row in prepared.corpus.rows} == {Sphere}
+    assert certify(plan).form(command)["corpus"]["rows"] == len(golden().rows)
 
 
 def test_only_keeps_some_families() -> None:

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import pytest
 
+from raycert.cases.corpus import read_corpus
 from raycert.cases.protocol import Hello
 from raycert.oracle.certify.selection import (
     MOST_SHARDS,
@@ -111,3 +112,11 @@ def test_what_is_nowhere_is_missing() -> None:
     wanted = Selection(("cone",), (), ("far-deep", "fresh-1"), ("no/row",))
     assert wanted.missing(CORPUS) == ["cone", "fresh-1", "no/row"]
     assert wanted.missing(CORPUS, [replace(CORPUS.rows[0], id="fresh-1/0")]) == ["cone", "no/row"]
+
+
+def test_what_is_not_read_is_counted_and_known() -> None:
+    hello, some = Hello("x", solids=("sphere",)), read_corpus(solids=("sphere",))
+    assert len(some.rows) < len(CORPUS.rows)
+    assert select(some, hello, Selection()) == select(CORPUS, hello, Selection())
+    wanted = Selection(solids=("slab",), ids=(CORPUS.rows[0].id, CORPUS.rows[-1].id, "no/row"))
+    assert wanted.missing(some) == ["no/row"]
