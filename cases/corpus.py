@@ -179,8 +179,8 @@ def read_corpus(
             continue
         path = folder / name
         for number, line in enumerate(golden_file(folder, name, entry).splitlines(), 1):
-            row = _heading(line, unwanted)
-            row = row or _decode_row(line, FORMATS[precision], f"{path}:{number}")
+            heading = _heading(line, unwanted)
+            row = heading or _decode_row(line, FORMATS[precision], f"{path}:{number}")
             if row.id in rows:
                 raise BadFile(f"{path}: the id {row.id} occurs twice")
             if name != f"{precision}/{row.family}.jsonl":
