@@ -21,6 +21,7 @@ binary32) and is taken as exactly the number it is; -0 is 0.
     scene       solids, a camera and a size, and the ray of each pixel
     table       the three tables of the case analysis, as data
     levels      tiers and levels
+    degenerate  inputs that have lost a dimension
     flags       what is hard in a case, and where to read of it
     case        a case, and a family of them
     accept      answers between an inner and an outer list of numbers

@@ -244,22 +244,28 @@ def _rests() -> Iterator[Shot]:
         yield shot.but(flags=("start-on-surface",) if on else ())
 
 
-def _threads(fmt: Format) -> Iterator[Shot]:
+def _threads() -> Iterator[Shot]:
     for shot in _flagged(THREADS, "rest", "zero-direction"):
         text = "A ray {}, the radius being zero"
         yield shot.but(text=text.format(shot.text), flags=("zero-radius", *shot.flags),
                        frame=drawn(1, 1))  # fmt: skip
+
+
+def _thin(fmt: Format) -> Iterator[Shot]:
     for k in decades(fmt):
         tiny, text = near(fmt, ten(-3 * k)), f"A ray crosses a cylinder of radius 1e-{3 * k}"
         yield Shot(f"stick-nearly-1e-{3 * k}", f"{text} and height 8", cylinder(tiny, 8),
                    (-tiny, 0, 3), (tiny, 0, 0), pair(0, 2), flags=("needle",))  # fmt: skip
 
 
-def _points(fmt: Format) -> Iterator[Shot]:
+def _points() -> Iterator[Shot]:
     for shot in _flagged(POINTS, "rest", "zero-direction"):
         text = "A ray {}: a sphere of radius zero"
         yield shot.but(text=text.format(shot.text), flags=("zero-radius", *shot.flags),
                        frame=drawn(1, int(shot.slug != "rest-on")))  # fmt: skip
+
+
+def _tiny(fmt: Format) -> Iterator[Shot]:
     for k in decades(fmt):
         tiny = near(fmt, ten(-3 * k))
         yield Shot(f"nearly-1e-{3 * k}",
@@ -337,8 +343,9 @@ FAMILIES = (
     family("behind", "What lies at t < 0 is cut off.", tuple(_behind())),
     family("zero-direction", "A ray that stays where it starts.", tuple(_rests()),
            "A ray with no direction rests {}", ("zero-direction",), frame=drawn(1, 1)),
-    family("zero-radius", "Cylinders that are a line or a segment, or nearly.", _threads,
+    family("zero-radius", "Cylinders that are a line or a segment.", tuple(_threads()),
            tier="stiff"),
+    family("nearly-line", "Cylinders of a radius that is next to nothing.", _thin, tier="stiff"),
     _signed_zero("signed-zero", "-0 is 0, wherever it stands.", SIGNED,
                  "Zeros are negative in {}."),
     family("sphere-start", "Starts on a sphere, in every sense.",
@@ -346,7 +353,9 @@ FAMILIES = (
            ("start-on-surface",), frame=drawn(1, 1)),
     family("sphere-start-near", "Starts just below and above a sphere: self-hits.", _near_sphere,
            flags=("start-near-surface",), tier="stiff"),
-    family("sphere-point", "Spheres that are a point, or nearly.", _points, tier="stiff"),
+    family("sphere-point", "Spheres that are a point.", tuple(_points()), tier="stiff"),
+    family("sphere-nearly-point", "Spheres of a radius that is next to nothing.", _tiny,
+           tier="stiff"),
     _signed_zero("sphere-signed-zero", "-0 is 0 in a sphere too.", SIGNED_SPHERES,
                  "Zeros are negative in {}, the solid a sphere."),
 )  # fmt: skip
