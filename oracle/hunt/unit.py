@@ -220,6 +220,7 @@ class Session:
         self._target, self._limits, self.clock = target, limits, clock or Clock()
         self._ids = fresh_ids()
         self._dialogue: Dialogue | None = None
+        self._first: Hello | None = None
 
     @property
     def hello(self) -> Hello:
@@ -266,7 +267,7 @@ class Session:
         under_way = dialogue.unanswered or last
         self.clock.check()
         limits = replace(self._limits, lost=min(self._limits.lost, self.clock.left()))
-        again = replay.run(self._target, under_way, limits).outcomes
+        again = replay.run(self._target, under_way, limits, hello=self._first).outcomes
         known.update(again)
         if not any(isinstance(outcome, Failure) for outcome in again.values()):
             detail = f"did not come again: {failure.kind}: {failure.detail}"
@@ -275,12 +276,18 @@ class Session:
     def _live(self) -> Dialogue:
         if self._dialogue is None:
             self._dialogue = self._open()
+            self._first = self._dialogue.hello
         return self._dialogue
 
     def _open(self) -> Dialogue:
         for _ in range(STARTS - 1):
             try:
-                return self._target.open(self._limits, self._ids)
+                return self._started()
+            except replay.Changed:
+                raise
             except Unusable:
                 self.clock.check()
-        return self._target.open(self._limits, self._ids)
+        return self._started()
+
+    def _started(self) -> Dialogue:
+        return replay.open_again(self._target, self._limits, self._ids, self._first)

@@ -1,6 +1,7 @@
 """A session goes on after crashes and hangs, and pins each on its question."""
 
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -10,7 +11,9 @@ from raycert.cases.protocol import Reply
 from raycert.oracle.client.dialogue import Command, Limits, Unusable
 from raycert.oracle.client.inprocess import InProcess
 from raycert.oracle.client.process import Failure
+from raycert.oracle.client.replay import Changed
 from raycert.oracle.hunt.unit import Clock, Session, TimeUp
+from shared.places import CLIENTS
 
 BALL = Sphere((0, 0, 0), 1)
 PROBES = [Probe(BALL, Ray((float(x), 0, 0), (1, 0, 0))) for x in (-3, 7, -2, 5, 7, -4)]
@@ -59,3 +62,14 @@ def test_the_time_is_kept():
 def test_what_cannot_be_run_says_so():
     with pytest.raises(Unusable):
         _ = Session(InProcess("callable", "no_such_module:x"), Limits()).hello
+
+
+def test_a_target_that_becomes_another_ends_the_session(tmp_path: Path):
+    used = tmp_path / "used"
+    client = (sys.executable, str(CLIENTS / "once.py"), str(used), "another")
+    session = Session(Command(client), Limits())
+    assert session.hello.name == "planted"
+    with pytest.raises(Changed, match="another"):
+        session.fresh(PROBES)
+    assert used.exists()
+    session.close()
