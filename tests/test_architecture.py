@@ -270,6 +270,31 @@ def imported_tests(every: Iterable[Source]) -> list[str]:
     ]
 
 
+SPEAK = {"oracle/reports/foreign.py", "oracle/reports/screen.py"}
+"""The only modules that print: what others wrote goes through them."""
+SPEAKERS = {"print", "click.echo", "click.secho", "click.echo_via_pager", "Console"}
+
+
+def prints(every: Iterable[Source]) -> list[str]:
+    """Calls that print, around the place where foreign text is made safe to show.
+
+    Bytes are data for a machine, each of a form that escapes; `write_out` alone hands them over.
+    """
+    return [
+        f"{source.path}:{node.lineno}: {ast.unparse(node)}"
+        for source in every
+        if source.package in ("oracle", "face") and source.path not in SPEAK
+        if source.chapter != "starters"
+        for node in ast.walk(source.tree)
+        if isinstance(node, ast.Call)
+        and (
+            (said := ast.unparse(node.func)) in SPEAKERS
+            or said.endswith((".Console", "stdout.write", "stderr.write"))
+        )
+        and ast.unparse(node) != "click.echo(data, nl=False)"
+    ]
+
+
 RULES: tuple[Rule, ...] = (
     wrong_directions,
     upward_chapters,
@@ -281,6 +306,7 @@ RULES: tuple[Rule, ...] = (
     shared_class_names,
     shared_stems,
     incomplete_lists,
+    prints,
 )
 
 
@@ -364,6 +390,10 @@ PLANTED: list[tuple[Rule, dict[str, str]]] = [
     (shared_class_names, {"oracle/map/x.py": "class A: ...", "oracle/zoo/y.py": "class A: ..."}),
     (shared_stems, {"oracle/map/x.py": "", "oracle/zoo/x.py": ""}),
     (incomplete_lists, {"oracle/map/__init__.py": '"""The map."""', "oracle/map/x.py": ""}),
+    (prints, {"oracle/commands/x.py": "import click\nclick.echo(name)"}),
+    (prints, {"oracle/commands/x.py": "def f():\n    print(name, file=sys.stderr)"}),
+    (prints, {"oracle/explain/x.py": "from rich.console import Console\nConsole().print(x)"}),
+    (prints, {"oracle/hunt/x.py": "sys.stderr.write(name)"}),
     (imported_tests, {"tests/map/test_x.py": "from tests.map.test_y import run"}),
     (imported_tests, {"tests/map/test_x.py": "def f():\n    import test_y"}),
     (imported_tests, {"tests/map/test_x.py": "from . import test_y"}),

@@ -24,6 +24,7 @@ from raycert.oracle.corpus.adopt import (
 )
 from raycert.oracle.corpus.adopt import adopt as keep
 from raycert.oracle.corpus.golden import Contradiction
+from raycert.oracle.reports.foreign import say
 from raycert.oracle.witness.crosscheck import Hearing
 from raycert.oracle.witness.testimony import WITNESSES
 
@@ -81,9 +82,9 @@ def adopt(file: Path, family: str, slug: str | None, corpus: Path | None, **opti
         with writing(folder):
             kept = keep(folder, family, found, slug)
             _say(checked)
-            click.echo(f"adopted as {kept.id} ({', '.join(kept.precisions)})")
+            say(f"adopted as {kept.id} ({', '.join(kept.precisions)})")
             for path in kept.files:
-                click.echo(f"written {path}")
+                say(f"written {path}")
     except Contradiction as error:
         raise click.ClickException(f"nothing was written: {error}") from None
     except Unfit as error:
@@ -129,10 +130,10 @@ def _row(file: Path, fmt: Format, id: str | None, why: str) -> Candidate:
 
 
 def _say(checked: Hearing) -> None:
-    click.echo(f"exactly {checked.answer}")
+    say(f"exactly {checked.answer}")
     said = dict.fromkeys(WITNESSES, "not installed, not asked")
     for name, verdict, _ in checked.testimonies:
         why = f": {verdict.why}" if verdict.outcome == "undecided" and verdict.why else ""
         said[name] = f"{verdict.outcome}{why}"
     for name, words in said.items():
-        click.echo(f"{name}: {words}")
+        say(f"{name}: {words}")

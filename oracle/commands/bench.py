@@ -154,13 +154,12 @@ def _check_needs(name: str) -> None:
 
 
 def _list() -> None:
-    from rich.console import Console
-
     from raycert.oracle.measure.catalog import WAYS
+    from raycert.oracle.reports.screen import screen
 
     ways = [(way.name, way.precision, way.does) for way in WAYS]
-    Console().print(grid(("section", "shows"), (), list(SECTIONS.items())))
-    Console().print(grid(("\nmethod", "\nfamily", "\na method that"), (), ways, wrap=True))
+    screen().print(grid(("section", "shows"), (), list(SECTIONS.items())))
+    screen().print(grid(("\nmethod", "\nfamily", "\na method that"), (), ways, wrap=True))
 
 
 def grid(
@@ -179,38 +178,42 @@ def grid(
 
 
 def _show(report: Report) -> None:
-    from rich.console import Console
+    from rich.text import Text
 
     from raycert.oracle.measure import sections as tables
     from raycert.oracle.measure.files import place
+    from raycert.oracle.reports.screen import screen
 
-    console = Console(width=max(Console().width, WIDTH))
+    console = screen(width=max(screen().width, WIDTH))
     for name, rows in report.sections.items():
         if name not in tables.SECTIONS:
             _show_race(name, rows, report.seed, console)
             continue
         section = tables.SECTIONS[name]
-        console.print(f"\n[bold]{name}[/]: {SECTIONS[name]}")
+        console.print(Text.assemble("\n", (name, "bold"), f": {SECTIONS[name]}"))
         columns = (*section.words, *section.figures)
         lines = [[spell(row) for _, spell in columns] for row in rows]
         words, figures = ([title for title, _ in x] for x in (section.words, section.figures))
         console.print(grid(words, figures, lines))
-        console.print(section.legend, markup=False)
+        console.print(section.legend)
     console.print()
     for note in report.notes:
-        console.print(note, markup=False)
-    console.print(place(report.seed), markup=False, highlight=False)
+        console.print(note)
+    console.print(place(report.seed))
 
 
 def _show_race(name: str, rows: Sequence[Figures], seed: int, console: Any) -> None:
+    from rich.text import Text
+
     for scenario in dict.fromkeys(row.scenario for row in rows):
         some = [row for row in rows if row.scenario == scenario]
         lead = "" if name == "methods" else f"{name}, "
-        console.print(f"\n[bold]{lead}{scenario}[/]: {some[0].rays} rays, seed {seed}")
+        rays = f": {some[0].rays} rays, seed {seed}"
+        console.print(Text.assemble("\n", (f"{lead}{scenario}", "bold"), rays))
         times = ("us/ray", "median", "iqr", "ratio")
         errors = ("ulps", "p99", "k p99", "squared", "rounded", "lost")
         console.print(grid(("method",), times + errors, [_line(row) for row in some]))
-    console.print(LEGEND, markup=False)
+    console.print(LEGEND)
 
 
 def _line(row: Figures) -> list[str]:

@@ -32,6 +32,7 @@ from raycert.oracle.commands.options import (
     write_out,
     writing,
 )
+from raycert.oracle.reports.foreign import say
 
 if TYPE_CHECKING:
     from raycert.oracle.certify.known import Expectations
@@ -121,7 +122,7 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
 
     expected = _expectations(options["expect"])
     for line in expected.warnings if expected else ():
-        click.echo(f"raycert: {options['expect']}: {line}", err=True)
+        say(f"raycert: {options['expect']}: {line}", err=True)
     result = _run(_plan(target, options))
     known = result.matched(expected).as_json(str(options["expect"])) if expected else None
     form = result.form(spelled(target), known)
@@ -134,7 +135,7 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
         write_out(options["record"], write(result.recorded(expected)))
     written += write_reports(form, _wanted(options))
     with writing("standard output"):
-        click.echo(f"certificate: {' '.join(written)}")
+        say(f"certificate: {' '.join(written)}")
     if result.changed:
         stop(result.changed)
     if not form["tested"] or form["reasons"] == ["nothing was tested"]:
@@ -183,7 +184,7 @@ def _run(plan: Plan) -> Result:
     from raycert.oracle.client.dialogue import Unusable
 
     def note(line: str) -> None:
-        click.echo(f"the adapter, rather than the tracer: {line}", err=True)
+        say(f"the adapter, rather than the tracer: {line}", err=True)
 
     try:
         return certify(plan, Watch(counting, note))
@@ -204,7 +205,7 @@ def _standing(name: str, target: Target, options: dict[str, Any]) -> dict[str, A
             try:
                 standing[option] = measure(name, target, counting)
             except Unusable as error:
-                click.echo(f"raycert: --{option}: {error}", err=True)
+                say(f"raycert: --{option}: {error}", err=True)
     return standing
 
 
@@ -228,12 +229,11 @@ def write_reports(certificate: dict[str, Any], reports: dict[str, str]) -> list[
 
 
 def _print(certificate: dict[str, Any]) -> None:
-    from rich.console import Console
-
+    from raycert.oracle.reports.screen import screen
     from raycert.oracle.reports.terminal import report as show
 
     with writing("standard output"):
-        show(certificate, Console(width=None if sys.stdout.isatty() else 120))
+        show(certificate, screen(width=None if sys.stdout.isatty() else 120))
 
 
 REPORT_EPILOG = """\b

@@ -11,7 +11,6 @@ from typing import Any
 
 import click
 from rich.box import SIMPLE_HEAD
-from rich.console import Console
 from rich.table import Table
 
 from raycert.cases.draw import fresh
@@ -28,6 +27,8 @@ from raycert.oracle.commands.options import (
     repeatable,
     stop,
 )
+from raycert.oracle.reports.foreign import say
+from raycert.oracle.reports.screen import screen
 from raycert.oracle.witness.crosscheck import Hearing, Query, Score, Summary
 from raycert.oracle.witness.crosscheck import crosscheck as run
 from raycert.oracle.witness.testimony import Missing, load
@@ -132,7 +133,7 @@ def _crosscheck(questions: list[Query], names: Sequence[str], workers: int) -> i
     for checked in summary.differing[:SHOWN]:
         _print_difference(checked, names)
     if len(summary.differing) > SHOWN:
-        click.echo(f"and {len(summary.differing) - SHOWN} more cases\n")
+        say(f"and {len(summary.differing) - SHOWN} more cases\n")
     _print_scores(names, summary)
     return 1 if summary.differing else 0
 
@@ -141,14 +142,14 @@ def _print_difference(checked: Hearing, names: Sequence[str]) -> None:
     """Print the case, all answers, and the command that repeats it."""
     question = checked.query
     line = ask(question.id, question.solid, question.ray, "decimal", BINARY64).decode().strip()
-    click.echo(f"{question.id}: the oracle and a witness differ")
-    click.echo(f"  case        {line}")
-    click.echo(f"  {'oracle':<11} {checked.answer}")
+    say(f"{question.id}: the oracle and a witness differ")
+    say(f"  case        {line}")
+    say(f"  {'oracle':<11} {checked.answer}")
     for name, verdict, _ in checked.testimonies:
-        click.echo(f"  {name:<11} {verdict.found or 'no list'}")
-        click.echo(f"  {'':<11} {verdict.outcome}: {verdict.why}")
+        say(f"  {name:<11} {verdict.found or 'no list'}")
+        say(f"  {'':<11} {verdict.outcome}: {verdict.why}")
     only = "".join(f"--witness {name} " for name in names) if tuple(names) != NAMES else ""
-    click.echo(f"  again       raycert crosscheck {only}--json {shlex.quote(line)}\n")
+    say(f"  again       raycert crosscheck {only}--json {shlex.quote(line)}\n")
 
 
 def _table(title: str | None, headings: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
@@ -158,7 +159,7 @@ def _table(title: str | None, headings: Sequence[str], rows: Iterable[Sequence[s
         table.add_column(heading, justify="left" if heading == "witness" else "right")
     for row in rows:
         table.add_row(*row)
-    Console(highlight=False).print(table)
+    screen().print(table)
 
 
 def _print_scores(names: Sequence[str], summary: Summary) -> None:
@@ -169,7 +170,7 @@ def _print_scores(names: Sequence[str], summary: Summary) -> None:
         for why, count in summary.scores[name].undecided.items():
             reasons[re.sub(r"\[[^]]*\]", "[...]", why)] += count
         for why, count in reasons.most_common(5):
-            click.echo(f"{name} undecided on {count}: {why}")
+            say(f"{name} undecided on {count}: {why}")
 
 
 def _cells(name: str, score: Score) -> tuple[str, ...]:

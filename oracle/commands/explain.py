@@ -8,7 +8,6 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
-from rich.console import Console
 
 from raycert.cases.formats import FORMATS
 from raycert.cases.forms import write_ray, write_solid
@@ -18,6 +17,8 @@ from raycert.oracle.commands.options import FILE_OR_DASH, aim, stop, write_out
 from raycert.oracle.explain.console import show, show_proofs
 from raycert.oracle.explain.derive import Derivation, as_given, derive, given, to_json
 from raycert.oracle.explain.wording import Fact, Passage
+from raycert.oracle.reports.foreign import say
+from raycert.oracle.reports.screen import screen
 
 if TYPE_CHECKING:
     from raycert.oracle.witness.proofs import Statement
@@ -97,7 +98,7 @@ def explain(form: str, symbolic: bool, full: bool, **options: Any) -> None:
     if form == "json":
         proofs = [{"title": s.title, "text": s.text, "proved": s.proved} for s in statements]
         shown = {"symbolic": proofs} if symbolic else {}
-        click.echo(json.dumps(shown | (to_json(derivation) if derivation else {}), indent=1))
+        say(json.dumps(shown | (to_json(derivation) if derivation else {}), indent=1))
     else:
         _print(derivation, statements, full)
     if not all(statement.proved for statement in statements):
@@ -112,7 +113,7 @@ def _derivation(options: dict[str, Any]) -> Derivation:
         derivation = derive(as_given(case), fmt, case.family)
         if derivation.row != case:
             text = f"{case.id}: the file holds another answer; see: raycert golden check"
-            click.echo(text, err=True)
+            say(text, err=True)
         return derivation
     derivation = derive(given(*case), fmt)
     if not rounded:
@@ -131,7 +132,7 @@ def _proofs() -> list[Statement]:
         stop(str(missing))
     from raycert.oracle.witness.proofs import derivation
 
-    with Console(stderr=True).status("proving with SymPy"):
+    with screen(stderr=True).status("proving with SymPy"):
         return derivation()
 
 
@@ -144,7 +145,7 @@ def _write(file: str, derivation: Derivation, options: dict[str, Any]) -> None:
     answers = [ask(word, target, row, fmt.name) for word, target in aims]
     text = case_page(derivation, answers, _repeat(derivation, options))
     if write_out(file, text) and file != "-":
-        click.echo(f"written {file}", err=True)
+        say(f"written {file}", err=True)
 
 
 def _repeat(derivation: Derivation, options: dict[str, Any]) -> str:
@@ -162,7 +163,7 @@ def _repeat(derivation: Derivation, options: dict[str, Any]) -> str:
 
 
 def _print(derivation: Derivation | None, statements: list[Statement], full: bool) -> None:
-    console = Console()
+    console = screen()
     if statements:
         show_proofs(statements, console)
     if statements and derivation:

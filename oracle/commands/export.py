@@ -25,6 +25,7 @@ from raycert.oracle.commands.options import (
     unknown,
     write_out,
 )
+from raycert.oracle.reports.foreign import clean, say
 
 HEADER = """id tier type solid ray expected down up decisive
 sound_inner sound_outer sound_most stable_inner stable_outer stable_most touches"""
@@ -107,7 +108,7 @@ def export(out: str, solids: str | None, precision: str, golden: Path | None, **
     if not chosen:
         raise BadInput("no row is such; see: raycert list --families")
     if write_out(out, "".join(f"{line}\n" for line in lines(chosen, corpus))) and out != "-":
-        click.echo(f"{len(chosen)} rows written to {out}", err=True)
+        say(f"{len(chosen)} rows written to {out}", err=True)
 
 
 def _made_of(rows: list[GoldenRow], solids: str) -> list[GoldenRow]:
@@ -120,7 +121,7 @@ def _made_of(rows: list[GoldenRow], solids: str) -> list[GoldenRow]:
 
 def lines(rows: list[GoldenRow], corpus: Corpus) -> Iterator[str]:
     fmt = corpus.format
-    yield f"# raycert golden rows, {fmt.name}, corpus {corpus.version}, data CC0"
+    yield f"# raycert golden rows, {fmt.name}, corpus {clean(corpus.version, 80)}, data CC0"
     yield f"# manifest sha256 {corpus.sha256}"
     grammar = GRAMMAR.format(digits=fmt.digits, name=fmt.name, inf=fmt.bits(float("inf")))
     for line in grammar.splitlines():

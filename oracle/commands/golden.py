@@ -14,6 +14,7 @@ from raycert.oracle.corpus.adopt import sources
 from raycert.oracle.corpus.golden import RELEASE, USUAL, Contradiction, compare
 from raycert.oracle.corpus.golden import write as write_files
 from raycert.oracle.corpus.lock import locked
+from raycert.oracle.reports.foreign import say
 
 folder_option = click.option(
     "--golden",
@@ -54,7 +55,7 @@ def write(folder: Path | None, corpus: Path | None, release: bool) -> None:
             witnesses = RELEASE if release else USUAL
             files = write_files(target, _families(corpus), lambda _: advance(), witnesses)
             rows = sum(data.count(b"\n") for data in files.values())
-            click.echo(f"{rows} rows in {len(files)} files written to {target}")
+            say(f"{rows} rows in {len(files)} files written to {target}")
     except Contradiction as error:
         raise click.ClickException(f"nothing was written. {error}") from None
 
@@ -70,13 +71,13 @@ def check(folder: Path | None, corpus: Path | None) -> None:
     with counting("computing") as advance:
         drifts = compare(target, _families(corpus), lambda _: advance())
     for drift in drifts[:20]:
-        click.echo(f"{drift.file}: {drift.what}")
+        say(f"{drift.file}: {drift.what}")
     if len(drifts) > 20:
-        click.echo(f"and {len(drifts) - 20} more")
+        say(f"and {len(drifts) - 20} more")
     if drifts:
-        click.echo("the files differ from what the oracle computes: raycert golden write", err=True)
+        say("the files differ from what the oracle computes: raycert golden write", err=True)
         raise SystemExit(1)
-    click.echo(f"every byte in {target} is as computed")
+    say(f"every byte in {target} is as computed")
 
 
 def _place(folder: Path | None, corpus: Path | None) -> Path:

@@ -11,6 +11,7 @@ from pathlib import Path
 import click
 
 from raycert.oracle.commands.options import FOLDER, write_out
+from raycert.oracle.reports.foreign import say
 
 MARK = b"replace from here"
 """Begins the one place, in one file of each language, that is the user's."""
@@ -74,8 +75,8 @@ def harness(lang: str | None, out: Path | None, force: bool, listing: bool) -> N
     """Write a small client in LANG that speaks the line protocol, to put your tracer into."""
     if listing:
         for key, starter in STARTERS.items():
-            click.echo(f"{key:12}{starter.name:12}{starter.build or starter.run}")
-        click.echo(f"{READERS:12}{'C, Node':12}judge answers without raycert; see README.md")
+            say(f"{key:12}{starter.name:12}{starter.build or starter.run}")
+        say(f"{READERS:12}{'C, Node':12}judge answers without raycert; see README.md")
         return
     if lang is None or lang not in (*STARTERS, READERS):
         wrong = "no language is given" if lang is None else f"{lang!r} is not a language here"
@@ -84,9 +85,9 @@ def harness(lang: str | None, out: Path | None, force: bool, listing: bool) -> N
     files = dict(templates(lang))
     written = _write(folder, files, force)
     if len(written) < len(files):
-        click.echo(f"Wrote {len(written)} of {len(files)} files to {folder}.")
+        say(f"Wrote {len(written)} of {len(files)} files to {folder}.")
     elif lang == READERS:
-        click.echo(f"Wrote {len(files)} files to {folder}. Its README.md says how to use them.")
+        say(f"Wrote {len(files)} files to {folder}. Its README.md says how to use them.")
     else:
         _advise(STARTERS[lang], folder, files)
 
@@ -121,7 +122,7 @@ def _advise(starter: Starter, folder: Path, files: dict[str, bytes]) -> None:
     """Say where the user's place is, and the commands to type next."""
     place = next(name for name, data in files.items() if MARK in data and name != "README.md")
     enter = f"cd {shlex.quote(str(folder))}"
-    click.echo(f"Wrote {len(files)} files to {folder}. Your tracer goes into {place}, at the mark.")
-    click.echo("Next:")
-    click.echo(f"  {enter} && {starter.build}" if starter.build else f"  {enter}")
-    click.echo(f"  raycert certify --level stable -- {starter.run}")
+    say(f"Wrote {len(files)} files to {folder}. Your tracer goes into {place}, at the mark.")
+    say("Next:")
+    say(f"  {enter} && {starter.build}" if starter.build else f"  {enter}")
+    say(f"  raycert certify --level stable -- {starter.run}")

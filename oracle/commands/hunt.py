@@ -41,6 +41,7 @@ from raycert.oracle.hunt.pursuit import work
 from raycert.oracle.hunt.search import Budget, Finding, Hunt
 from raycert.oracle.hunt.search import hunt as run
 from raycert.oracle.hunt.unit import Job
+from raycert.oracle.reports.foreign import say
 
 SECONDS = 60.0
 
@@ -164,11 +165,12 @@ def _watched(budget: Any) -> Iterator[Callable[[Hunt], None]]:
     if not sys.stderr.isatty():
         yield lambda _: None
         return
-    from rich.console import Console
     from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
+    from raycert.oracle.reports.screen import screen
+
     columns = BarColumn(), TimeElapsedColumn(), TextColumn("{task.description}")
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with Progress(*columns, console=screen(stderr=True), transient=True) as bar:
         task = bar.add_task("starting", total=budget.cases or budget.seconds)
 
         def show(found: Hunt) -> None:
@@ -206,19 +208,19 @@ def _print(
     found: Hunt, findings: dict[str, Finding], target: tuple[str, ...], options: dict[str, Any]
 ) -> None:
     for id, finding in findings.items():
-        click.echo(f"{id}  {finding.flaw.level} fails: {finding.symptom}")
-        click.echo(f"  case     {dumps(case(finding.probe))}")
+        say(f"{id}  {finding.flaw.level} fails: {finding.symptom}")
+        say(f"  case     {dumps(case(finding.probe))}")
         for probe in finding.before:
-            click.echo(f"  after    {dumps(case(probe))}")
-        click.echo(f"  answer   {dumps(answer(finding.outcome))}")
-        click.echo(f"  exact    {show(trace(*finding.probe).intervals)}")
-        click.echo(f"  because  {finding.flaw.reason}")
+            say(f"  after    {dumps(case(probe))}")
+        say(f"  answer   {dumps(answer(finding.outcome))}")
+        say(f"  exact    {show(trace(*finding.probe).intervals)}")
+        say(f"  because  {finding.flaw.reason}")
         if not finding.repeats:
-            click.echo("  It did not come again in a new process, so no row was written.")
-    click.echo(f"{status(found)}, {found.seconds:.0f} s, seed {options['seed']}" + _end(found))
+            say("  It did not come again in a new process, so no row was written.")
+    say(f"{status(found)}, {found.seconds:.0f} s, seed {options['seed']}" + _end(found))
     if any(finding.repeats for finding in findings.values()):
         replay = ("raycert", "certify", "--golden", str(options["out"]), "--level")
-        click.echo("replay: " + shlex.join((*replay, options["level"], *spelled(target))))
+        say("replay: " + shlex.join((*replay, options["level"], *spelled(target))))
 
 
 def _end(found: Hunt) -> str:

@@ -11,7 +11,6 @@ from textwrap import wrap
 from typing import Any
 
 import click
-from rich.console import Console
 
 from raycert.cases.corpus import Corpus, encode_rows
 from raycert.cases.flags import FLAGS
@@ -20,7 +19,16 @@ from raycert.cases.model import SOLIDS, type_of
 from raycert.cases.protocol import TOUCHES
 from raycert.cases.row import GoldenRow
 from raycert.cases.table import HALF_SPACE, PROBLEM_1, PROBLEM_2, PROBLEM_3
-from raycert.oracle.commands.options import find, golden_option, precision_option, read, unknown
+from raycert.oracle.commands.options import (
+    find,
+    golden_option,
+    precision_option,
+    read,
+    unknown,
+    write_out,
+)
+from raycert.oracle.reports.foreign import say
+from raycert.oracle.reports.screen import screen
 
 FIELDS = ("family", "tier", "flag", "row", "solid", "source", "touch", "decisive")
 
@@ -79,7 +87,7 @@ def list_cases(precision: str, golden: Path | None, **options: Any) -> None:
     else:
         _print_rows(chosen)
     if not chosen:
-        click.echo("no row is such", err=True)
+        say("no row is such", err=True)
 
 
 def values(row: GoldenRow, field: str) -> tuple[str, ...]:
@@ -143,20 +151,20 @@ def _print_rows(rows: list[GoldenRow]) -> None:
     size = min(max((len(row.id) for row in rows), default=0), 48)
     for row in rows:
         if width is None:
-            click.echo(f"{row.id}\t{row.tier}\t{row.why}")
+            say(f"{row.id}\t{row.tier}\t{row.why}")
         else:
             line = f"{row.id:{size}}  {row.tier:7}  {row.why}"
-            click.echo(line if len(line) <= width else line[: width - 3] + "...")
+            say(line if len(line) <= width else line[: width - 3] + "...")
     if width is not None:
-        click.echo(f"{len(rows)} rows; one in full: raycert show ID", err=True)
+        say(f"{len(rows)} rows; one in full: raycert show ID", err=True)
 
 
 def _print_counts(rows: list[GoldenRow], field: str) -> None:
     counts = Counter(value for row in rows for value in values(row, field))
     size = max((len(name) for name in counts), default=0)
     for name, count in sorted(counts.items(), key=lambda item: (-item[1], item[0])):
-        click.echo(f"{name:{size}}  {count:6}")
-    click.echo(f"{'rows':{size}}  {len(rows):6}")
+        say(f"{name:{size}}  {count:6}")
+    say(f"{'rows':{size}}  {len(rows):6}")
 
 
 def _print_families(rows: list[GoldenRow]) -> None:
@@ -169,20 +177,21 @@ def _print_families(rows: list[GoldenRow]) -> None:
         counts = ", ".join(f"{tiers[tier]} {tier}" for tier in TIERS if tiers[tier])
         reason = reasons.get(name, "")
         if width is None:
-            click.echo(f"{name}\t{counts}\t{reason}")
+            say(f"{name}\t{counts}\t{reason}")
             continue
-        click.echo(f"{click.style(name, bold=True)}  {counts}")
+        say(name, nl=False, bold=True)
+        say(f"  {counts}")
         for line in wrap(reason, width - 4):
-            click.echo(f"    {line}")
+            say(f"    {line}")
 
 
 def _print_legend() -> None:
     width = _screen() or 100
     for flag in FLAGS.values():
-        click.secho(flag.name, bold=True)
+        say(flag.name, bold=True)
         about = [line for text in (flag.trouble, flag.effect) for line in wrap(text, width - 4)]
         for line in (*about, *flag.references):
-            click.echo(f"    {line}")
+            say(f"    {line}")
 
 
 @click.command(epilog=SHOW_EXAMPLES)
@@ -196,8 +205,8 @@ def show(ids: tuple[str, ...], raw: bool, full: bool, precision: str, golden: Pa
     corpus = read(precision, golden)
     rows = [find(corpus, id) for id in ids]
     if raw:
-        click.echo(encode_rows(rows, corpus.format), nl=False)
+        write_out("-", encode_rows(rows, corpus.format))
         return
     from raycert.oracle.explain.console import show_rows
 
-    show_rows(rows, corpus.format, Console(), full)
+    show_rows(rows, corpus.format, screen(), full)

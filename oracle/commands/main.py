@@ -12,6 +12,7 @@ from raycert.cases import interrupts
 from raycert.cases.files import BadFile
 from raycert.oracle.commands import streams
 from raycert.oracle.commands.options import FULL, LOST, NOT_WRITTEN, BadInput, flush
+from raycert.oracle.reports.foreign import escaped, say
 
 VERBS: dict[str, dict[str, tuple[str, str]]] = {
     "Certify your tracer": {
@@ -107,17 +108,20 @@ class Verbs(click.Group):
             if not lost:
                 raise
         except BadFile as error:
-            raise BadInput(str(error)) from None
+            raise BadInput(escaped(str(error))) from None
+        except click.ClickException as error:
+            vars(error)["message"] = escaped(error.message)
+            raise
         except OSError as error:
             if error.errno not in FULL:
                 raise
             lost.append(f"standard output: {error.strerror}")
         except KeyboardInterrupt:
-            click.echo("raycert: interrupted", err=True)
+            say("raycert: interrupted", err=True)
             raise SystemExit(interrupts.status()) from None
         finally:
             for what in lost:
-                click.echo(f"raycert: not written: {what}", err=True)
+                say(f"raycert: not written: {what}", err=True)
         if lost:
             flush()
             raise SystemExit(NOT_WRITTEN)

@@ -29,6 +29,7 @@ from raycert.oracle.commands.options import (
 from raycert.oracle.map.legend import summary, to_csv, to_json
 from raycert.oracle.map.raster import UNITS, Inputs, Raster
 from raycert.oracle.map.sampling import SHOWS, Map, sample
+from raycert.oracle.reports.foreign import say
 
 PICTURES, DATA = (".png", ".svg"), (".json", ".csv")
 CELLS = 96
@@ -110,11 +111,11 @@ def draw_map(**options: Any) -> None:
     found = _sampled(_raster(options), show, options)
     if not found.cells:
         raise click.ClickException("interrupted before a cell was done; nothing was written")
-    click.echo("\n".join(summary(found)))
+    say("\n".join(summary(found)))
     title, written = _title(options), []
     for path, drawn in zip(options["outs"], writers, strict=True):
         written += [str(path)] if write_out(path, drawn(found, title)) else []
-    click.echo(f"wrote {', '.join(written) or 'nothing'}")
+    say(f"wrote {', '.join(written) or 'nothing'}")
     raise SystemExit(0 if found.whole else 1)
 
 

@@ -12,6 +12,7 @@ import click
 
 from raycert.cases.interrupts import interruptible
 from raycert.oracle.commands.options import FOLDER, repeatable, stop, write_out
+from raycert.oracle.reports.foreign import say
 
 if TYPE_CHECKING:
     from raycert.oracle.measure.way import Way
@@ -87,13 +88,13 @@ def drawing() -> Iterator[None]:
     except ModuleNotFoundError as absent:
         if absent.name != "matplotlib":
             raise
-        click.echo('no plots without matplotlib: pip install "raycert[plots]"', err=True)
+        say('no plots without matplotlib: pip install "raycert[plots]"', err=True)
 
 
 def end(interrupted: bool, written: Iterable[Path]) -> NoReturn:
     """Say what was written; an interrupted run ends with exit status 1."""
     for path in written:
-        click.echo(f"wrote {path}")
+        say(f"wrote {path}")
     if interrupted:
-        click.echo("raycert: interrupted; this is what was measured by then", err=True)
+        say("raycert: interrupted; this is what was measured by then", err=True)
     raise SystemExit(1 if interrupted else 0)

@@ -29,6 +29,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 import click
 
 from raycert.cases.levels import LEVELS, TIERS, Level
+from raycert.oracle.reports.foreign import say
 
 if TYPE_CHECKING:
     from raycert.cases.corpus import Corpus
@@ -52,7 +53,7 @@ class BadInput(click.ClickException):
 
 def stop(message: str) -> NoReturn:
     """End with exit status 3: the target could not be run, or nothing was tested."""
-    click.echo(f"raycert: {message}", err=True)
+    say(f"raycert: {message}", err=True)
     raise SystemExit(3)
 
 
@@ -282,11 +283,12 @@ def counting(verb: str, total: int | None = None) -> Iterator[Callable[..., None
         yield lambda n=1: None
         return
     from rich import progress
-    from rich.console import Console
+
+    from raycert.oracle.reports.screen import screen
 
     done = progress.BarColumn(), progress.MofNCompleteColumn()
     clocks = progress.TimeElapsedColumn(), progress.TimeRemainingColumn()
     columns = "{task.description}", *done, *clocks
-    with progress.Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with progress.Progress(*columns, console=screen(stderr=True), transient=True) as bar:
         task = bar.add_task(verb, total=total)
         yield lambda n=1: bar.advance(task, n)

@@ -10,6 +10,7 @@ import click
 
 from raycert.oracle.commands.options import counting
 from raycert.oracle.commands.scenes import needs, read, scene_argument
+from raycert.oracle.reports.foreign import say
 
 SHOWS = ("depth", "normal", "thickness", "count")
 EPILOG = """\b
@@ -57,7 +58,7 @@ def plan(scene: str | None, **options: Any) -> None:
     result = {"scene": name, "size": list(read_scene.size), "show": options["show"]}
     result |= {"items": items, "planned": planned, "plain": plain}
     if options["as_json"]:
-        click.echo(json.dumps(result, indent=1))
+        say(json.dumps(result, indent=1))
     else:
         _print(**result)
 
@@ -70,8 +71,9 @@ def _print(
     planned: float,
     plain: float,
 ) -> None:
-    from rich.console import Console
     from rich.table import Table
+
+    from raycert.oracle.reports.screen import screen
 
     table = Table(box=None, pad_edge=False)
     for title in ("item", "leaves out", "because, or why not"):
@@ -85,8 +87,8 @@ def _print(
             table.add_row(*words, row["why"], *numbers, f"{times[1] / times[0]:.2f}")
         else:
             table.add_row(*words, f"not here: {row['why']}", "", "", "", style="dim")
-    Console().print(table)
-    click.echo(
+    screen().print(table)
+    say(
         f"{scene}, {show}, {size[0]}x{size[1]}: {1e3 * planned:.1f} ms planned, "
         f"{1e3 * plain:.1f} ms with nothing left out: {plain / planned:.1f} times"
     )

@@ -22,7 +22,7 @@ from __future__ import annotations
 import shlex
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import pytest
 
@@ -104,6 +104,7 @@ class Campaign:
         from raycert.oracle.certify.known import Expectations, read
         from raycert.oracle.certify.run import NotInCorpus, Unsuitable, prepare
         from raycert.oracle.client.dialogue import Unusable
+        from raycert.oracle.reports.foreign import escaped
 
         self.session = session
         self.file: str | None = session.config.getoption("--raycert-expect")
@@ -115,24 +116,26 @@ class Campaign:
                 self.expectations = read(read_text(Path(self.file)), self.file)
             self.prepared: Prepared = prepare(self.plan)
         except (BadFile, BadLine, NotInCorpus, Unsuitable, Unusable) as error:
-            raise pytest.UsageError(f"raycert: {error}") from None
+            raise pytest.UsageError(escaped(f"raycert: {error}")) from None
 
     def check(self, family: str, subtests: Any) -> None:
         """Fail on what is not expected of a family; xfail on what is."""
+        from raycert.oracle.reports.foreign import escaped
+
         if family == EXPECTATIONS:
             self._check_expectations()
             return
         matched = self._match(self._graded(family))
         wrong = [*self._failures(family, matched), *_stale(matched, family, self.expectations)]
         if subtests is None and wrong:
-            pytest.fail("\n".join(text for _, text in wrong), pytrace=False)
+            _fail("\n".join(text for _, text in wrong))
         for name, text in wrong:
             with subtests.test(msg=name):
-                pytest.fail(text, pytrace=False)
+                _fail(text)
         if matched.expected and not wrong:
             about = [e for e in self.expectations.entries if _is_about(e.name, matched.expected)]
             why = "; ".join(dict.fromkeys(entry.reason for entry in about))
-            pytest.xfail(f"{len(matched.expected)} known failures: {why}")
+            pytest.xfail(escaped(f"{len(matched.expected)} known failures: {why}"))
 
     def _graded(self, family: str) -> list[Grade]:
         """Return the grades of a family, asked now if they were not before."""
@@ -143,7 +146,7 @@ class Campaign:
             try:
                 result = conduct(self.prepared.only(self._families(family)))
             except (Unusable, Unsuitable) as error:
-                pytest.fail(f"raycert: {error}", pytrace=False)
+                _fail(f"raycert: {error}")
             if result.ran.interrupted:
                 raise KeyboardInterrupt
             for grade in result.grades:
@@ -192,7 +195,13 @@ class Campaign:
         whole = [text for text in matched.unexpected_passes if text.startswith("convention ")]
         wrong = [*matched.unmatched, *whole]
         if wrong:
-            pytest.fail(f"{self.file}:\n" + "\n".join(wrong), pytrace=False)
+            _fail(f"{self.file}:\n" + "\n".join(wrong))
+
+
+def _fail(text: str) -> NoReturn:
+    from raycert.oracle.reports.foreign import escaped
+
+    pytest.fail(escaped(text), pytrace=False)
 
 
 def _stale(matched: Matched, family: str, known: Expectations) -> Iterator[tuple[str, str]]:

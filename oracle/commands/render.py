@@ -11,6 +11,7 @@ import click
 
 from raycert.oracle.commands.options import FILE, BadInput, counting, repeatable, write_out
 from raycert.oracle.commands.scenes import answer, needs, read, scene_argument, start
+from raycert.oracle.reports.foreign import say
 
 if TYPE_CHECKING:
     from raycert.cases.scene import Scene
@@ -78,7 +79,7 @@ def render(scene: str | None, out: Path | None, **options: Any) -> None:
         return
     read_scene, name = read(scene, options["size"])
     if options["pixel"]:
-        click.echo(_pixel(read_scene, options["pixel"]))
+        say(_pixel(read_scene, options["pixel"]))
         return
     needs("numpy", "PIL")
     out = out or FILE.convert(f"{name}-{options['show']}.png", None, None)
@@ -86,16 +87,16 @@ def render(scene: str | None, out: Path | None, **options: Any) -> None:
 
 
 def _list() -> None:
-    from rich.console import Console
     from rich.table import Table
 
     from raycert.cases.scene import load, shipped
+    from raycert.oracle.reports.screen import screen
 
     grid = Table(box=None, pad_edge=False, show_header=False)
     grid.add_column(no_wrap=True)
     for name in shipped():
         grid.add_row(name, load(name).about)
-    Console().print(grid)
+    screen().print(grid)
 
 
 def _render(scene: Scene, source: str, out: Path, options: dict[str, Any]) -> int:
@@ -114,8 +115,8 @@ def _render(scene: Scene, source: str, out: Path, options: dict[str, Any]) -> in
     words = [f"{width}x{height}", f"{about['hits']} of {width * height} rays hit"]
     if show != "normal" and (ends := extremes(values)):
         words.append(f"{show} {shown(ends[0], *ends)} to {shown(ends[1], *ends)}")
-    click.echo(f"{out}: {', '.join(words)}, {time.perf_counter() - began:.2f} s")
-    click.echo(f"left out: {', '.join(about['left_out']) or 'nothing'}")
+    say(f"{out}: {', '.join(words)}, {time.perf_counter() - began:.2f} s")
+    say(f"left out: {', '.join(about['left_out']) or 'nothing'}")
     status = _print_errors(rows, f"{source} --size {size}" if size else source) if rows else 0
     write_out(out, png(of_scene(values, show, ", textbook" if tracer == "textbook" else "")))
     return status
@@ -140,8 +141,8 @@ def _print_errors(rows: list[list[float]], source: str) -> int:
     every = [(k, x, y) for y, row in enumerate(rows) for x, k in enumerate(row)]
     worst, x, y = max(every, key=itemgetter(0))
     above = [sum(k > bound for k, _, _ in every) for bound in (1, BOUND)]
-    click.echo(f"k at most {worst:.4g}; pixels above 1: {above[0]}, above {BOUND}: {above[1]}")
-    click.echo(f"worst: raycert render {source} --pixel {x},{y} | raycert explain --json -")
+    say(f"k at most {worst:.4g}; pixels above 1: {above[0]}, above {BOUND}: {above[1]}")
+    say(f"worst: raycert render {source} --pixel {x},{y} | raycert explain --json -")
     return 1 if worst > BOUND else 0
 
 

@@ -19,6 +19,7 @@ from raycert.oracle.commands.measuring import (
     write_rows,
 )
 from raycert.oracle.commands.options import counting, repeatable
+from raycert.oracle.reports.foreign import say
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -96,7 +97,7 @@ def stress(**options: Any) -> None:
     sides = _meshes(found) if not options["sweeps"] and not found.interrupted else []
     _show(found, sides)
     for note in notes:
-        click.echo(note)
+        say(note)
     written = _write(found, sides, options["out"]) if options["out"] is not None else []
     end(found.interrupted, written)
 
@@ -116,20 +117,21 @@ def _meshes(found: Stress) -> list[Sides]:
 
 
 def _show(found: Stress, sides: Sequence[Sides]) -> None:
-    from rich.console import Console
-
     from raycert.oracle.measure.facets import CASTERS, slope
+    from raycert.oracle.reports.screen import screen
 
-    console = Console(highlight=False)
+    console = screen()
     for sweep in found.plan.sweeps:
         _show_sweep(found, sweep, console)
     for caster in CASTERS:
         if any(one.caster == caster for one in sides):
-            click.echo(f"meshes by {caster}: error ~ n^{slope(sides, caster):.2f}")
+            say(f"meshes by {caster}: error ~ n^{slope(sides, caster):.2f}")
 
 
 def _show_sweep(found: Stress, sweep: Sweep, console: Console) -> None:
     """Print who breaks where, and who does not. A method with steps to come is left out."""
+    from rich.text import Text
+
     from raycert.oracle.commands.bench import grid
     from raycert.oracle.measure.ranges import spelled
 
@@ -150,7 +152,7 @@ def _show_sweep(found: Stress, sweep: Sweep, console: Console) -> None:
             lines.append([way.name, *levels, worst, f"{share:.1%}"])
     if not (lines or whole or exact):
         return
-    console.print(f"[bold]{sweep.title}[/bold]: {sweep.axis}")
+    console.print(Text.assemble((sweep.title, "bold"), f": {sweep.axis}"))
     if lines:
         console.print(grid(("method", "stable", "sound", "worst k", "wrong"), (), lines))
     for line in _causes(found, sweep):

@@ -22,6 +22,8 @@ from raycert.oracle.commands.options import (
     repeatable,
     write_out,
 )
+from raycert.oracle.reports.foreign import say
+from raycert.oracle.reports.screen import screen
 from raycert.oracle.zoo import matrix
 from raycert.oracle.zoo.inhabitants import BY_NAME, FAULTS
 
@@ -64,7 +66,7 @@ def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: P
         for name in names or BY_NAME:
             lines.append(matrix.line(trials, BY_NAME[name]))
             advance()
-    console = Console()
+    console = screen()
     console.print(_table(lines, console.width))
     if names:
         _families(lines, console)
@@ -78,7 +80,7 @@ def _write_smoke(golden: Path | None, folder: Path) -> None:
     for precision in PRECISIONS:
         with counting(f"trying in {precision}", len(FAULTS)) as advance:
             ids = matrix.chosen(read(precision, golden), advance)
-        click.echo(f"{precision}: {len(ids)} rows")
+        say(f"{precision}: {len(ids)} rows")
         write_out(folder / f"{precision}.txt", "".join(f"{id}\n" for id in ids))
 
 
@@ -108,23 +110,24 @@ def _table(lines: Sequence[matrix.MatrixLine], width: int) -> Table:
 def _families(lines: Sequence[matrix.MatrixLine], console: Console) -> None:
     """Print, for each fault, who refuses it."""
     for line in lines:
-        console.print(f"\n[bold]{line.fault.name}[/bold]: a tracer that {line.fault.does}")
-        console.print(f"from: {line.fault.origin}", highlight=False)
+        named = (line.fault.name, "bold"), f": a tracer that {line.fault.does}"
+        console.print(Text.assemble("\n", *named))
+        console.print(f"from: {line.fault.origin}")
         found = sorted(line.families.items(), key=lambda item: -item[1].total())
         for family, levels in found:
             counts = ", ".join(f"{n} {level}" for level, n in levels.items())
-            console.print(f"  {family}: {counts}", highlight=False)
+            console.print(f"  {family}: {counts}")
 
 
 def _summary(corpus: Corpus, lines: Sequence[matrix.MatrixLine], console: Console) -> int:
     trouble = [line for line in lines if line.trouble]
     rows = f"{len(corpus.rows)} rows of corpus {corpus.version}"
-    console.print(f"\n{len(lines)} faults, {rows}: ", end="", highlight=False)
+    console.print(f"\n{len(lines)} faults, {rows}: ", end="")
     if not trouble:
         console.print("each refused by the family made for it", style="bold green")
         return 0
     console.print(f"{len(trouble)} NOT AS THEY SHOULD BE", style="bold red")
     for line in trouble:
         words = f"  {line.fault.name}, that {line.fault.does}: {line.trouble}"
-        console.print(words, style="red", highlight=False)
+        console.print(words, style="red")
     return 1

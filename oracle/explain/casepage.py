@@ -29,9 +29,10 @@ from raycert.oracle.explain.derive import Derivation
 from raycert.oracle.explain.wording import Fact, Note, Table, numbers, shorten
 from raycert.oracle.judge.answer import First, YesNo
 from raycert.oracle.reports import picture
+from raycert.oracle.reports.foreign import clean
 from raycert.oracle.reports.page import render
 from raycert.oracle.reports.picture import GUTTER, PLOT, ROW, WIDTH, CaseLists, Lane, Pairs, Ruler
-from raycert.oracle.reports.reading import clean, number
+from raycert.oracle.reports.reading import number
 from raycert.oracle.reports.section import Slice, View, views
 
 Json = dict[str, Any]

@@ -123,11 +123,10 @@ class Explanation:
 
     def __str__(self) -> str:
         """Return the derivation as `raycert explain` prints it."""
-        from rich.console import Console
-
         from raycert.oracle.explain.console import show
+        from raycert.oracle.reports.screen import screen
 
-        console = Console(width=100, color_system=None, force_terminal=False)
+        console = screen(width=100, color_system=None, force_terminal=False)
         with console.capture() as capture:
             show(self.derivation, console, full=False)
         return capture.get()

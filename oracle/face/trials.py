@@ -52,11 +52,10 @@ class Certification:
 
     def __str__(self) -> str:
         """Return the report that `raycert certify` prints."""
-        from rich.console import Console
-
+        from raycert.oracle.reports.screen import screen
         from raycert.oracle.reports.terminal import report
 
-        console = Console(width=100, color_system=None, force_terminal=False)
+        console = screen(width=100, color_system=None, force_terminal=False)
         with console.capture() as capture:
             report(self.certificate, console)
         return capture.get()

@@ -6,6 +6,7 @@ drawn as outlines in the font that comes with matplotlib, and no file holds a da
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -16,9 +17,13 @@ from typing import Any
 import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+from raycert.oracle.reports.foreign import escaped
 
 DPI = 160
 INK, FAINT, GRID, PAPER = "#1a1a1a", "#767676", "#dddddd", "#ffffff"
+POWER = re.compile(r"\$\d+\^\{?-?\d+\}?\$")
 UNDATED: Any = {"Date": None, "Creator": "raycert"}
 RC: Any = {
     "font.family": "DejaVu Sans",
@@ -103,7 +108,14 @@ def pictures(drawn: Figure, name: str) -> dict[str, bytes]:
 
 
 def picture(drawn: Figure, form: str) -> bytes:
-    """Return a figure as SVG or PNG; no date is in it. Within `styled`."""
+    """Return a figure as SVG or PNG; no date is in it. Within `styled`.
+
+    A name may hold anything; a dollar is read as mathematics in the labels of powers alone.
+    """
+    for text in drawn.findobj(Text):
+        text.set_text(escaped(text.get_text()))
+        if "$" in text.get_text() and not POWER.fullmatch(text.get_text()):
+            text.set_parse_math(False)
     data, about = BytesIO(), UNDATED if form == "svg" else {"Software": "raycert"}
     drawn.savefig(data, format=form, metadata=about, dpi=DPI)
     return data.getvalue()

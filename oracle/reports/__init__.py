@@ -1,6 +1,8 @@
 """The certificate as people and machines read it: each report is a function from it to text.
 
-reading     what a certificate says, said once for every report; what may be printed of a client
+foreign     the text of others, as it may be shown: on terminals, in Markdown, XML and pages
+screen      what tables and colours are printed on
+reading     what a certificate says, said once for every report
 terminal    the certificate on a terminal
 markdown    the certificate for the summary of a CI job
 junit       the certificate as JUnit XML

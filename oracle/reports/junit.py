@@ -11,7 +11,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from raycert.oracle.reports import reading
-from raycert.oracle.reports.reading import Json, clean, count
+from raycert.oracle.reports.foreign import clean, legible
+from raycert.oracle.reports.reading import Json, count
 
 SHOWN = 20
 
@@ -28,6 +29,7 @@ class Test(NamedTuple):
 def junit(certificate: Json) -> str:
     from junitparser import JUnitXml
 
+    certificate = legible(certificate)
     title = f"raycert: {reading.subject(certificate)} {reading.verdict(certificate).headline}"
     xml, properties = JUnitXml(title), _properties(certificate)
     for solid in certificate["solids"]:

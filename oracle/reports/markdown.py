@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from html import escape
-from re import findall
 
 from raycert.cases.levels import LEVELS
 from raycert.oracle.reports import reading
-from raycert.oracle.reports.reading import Json, clean, count, intervals
+from raycert.oracle.reports.foreign import code, legible, plain
+from raycert.oracle.reports.reading import Json, count, intervals
 
 FAMILIES, ROWS = 20, 5
 """How many failing families are shown, and how many rows of each."""
@@ -20,6 +20,7 @@ STATES = {"granted": "\u2705", "part": "\u2705", "accepted": "\u26a0\ufe0f"}
 
 
 def markdown(certificate: Json) -> str:
+    certificate = legible(certificate)
     found = reading.verdict(certificate)
     lines = [
         f"### {STATES.get(found.state, MARKS['failed'])} {code(reading.subject(certificate))} "
@@ -37,25 +38,14 @@ def markdown(certificate: Json) -> str:
     return "\n".join(lines)
 
 
-def code(text: str) -> str:
-    """Return text as a code span: nothing in it is read as Markdown or HTML, nor ends a cell.
-
-    A pipe in a table ends the cell even in code, so it is shown as its double-barred likeness.
-    """
-    plain = clean(text, 1000).replace("|", "\u00a6")
-    fence = "`" * (max(map(len, findall("`+", plain)), default=0) + 1)
-    pad = " " if plain.startswith("`") or plain.endswith("`") or not plain.strip() else ""
-    return f"{fence}{pad}{plain}{pad}{fence}"
-
-
 def _solids(certificate: Json) -> Iterator[str]:
     yield "| solid | " + " | ".join(LEVELS) + " | convention |"
     yield "|---|" + "--:|" * len(LEVELS) + "---|"
     for name, solid in certificate["solids"].items():
         cells = [_cell(solid["levels"][level]) for level in LEVELS]
-        yield f"| {name} | " + " | ".join(cells) + f" | {solid['convention']} |"
+        yield f"| {plain(name)} | " + " | ".join(cells) + f" | {plain(solid['convention'])} |"
     for name in certificate["not_tested"]["solids"]:
-        yield f"| {name} |" + " not tested |" * 5
+        yield f"| {plain(name)} |" + " not tested |" * 5
 
 
 def _cell(tally: Json) -> str:
@@ -71,7 +61,8 @@ def _failures(certificate: Json) -> Iterator[str]:
     total = sum(map(len, failures.values()))
     yield from (f"**{count(total, 'row')} fail in {count(len(failures), 'place')}**", "")
     for (solid, family), rows in list(failures.items())[:FAMILIES]:
-        yield f"<details><summary>{solid}: {family} ({count(len(rows), 'row')})</summary>"
+        place = escape(f"{solid}: {family} ({count(len(rows), 'row')})")
+        yield f"<details><summary>{place}</summary>"
         yield ""
         for failed in rows[:ROWS]:
             yield from _row(certificate, failed)
@@ -85,7 +76,7 @@ def _failures(certificate: Json) -> Iterator[str]:
 
 def _row(certificate: Json, failed: Json) -> tuple[str, ...]:
     return (
-        f"- {code(failed['id'])}: {escape(clean(failed['why']))}",
+        f"- {code(failed['id'])}: {plain(failed['why'])}",
         f"  - {code(reading.fault(certificate, failed))}",
         f"  - answer {code(reading.said(failed))}, expected {code(intervals(failed['expected']))}",
         f"  - {code(failed['reproduce'])}",
@@ -100,6 +91,6 @@ def _small(certificate: Json) -> Iterator[str]:
         f"{tool['name']} {tool['version']}, {certificate['run']['seconds']:.1f} s"
     )
     repeat = f"repeat: {certificate['reproduce']}"
-    yield from (f"<details><summary>{made}</summary>", "")
+    yield from (f"<details><summary>{escape(made)}</summary>", "")
     yield from (f"- {code(line)}" for line in (*reading.beside(certificate), repeat))
     yield from ("", "</details>")

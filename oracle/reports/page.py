@@ -1,6 +1,6 @@
 """The certificate as one HTML page that needs nothing else: no network, no script, no font.
 
-What clients said is cleaned; the template escapes it besides.
+All text is made legible first; the template escapes it besides.
 """
 
 from __future__ import annotations
@@ -14,10 +14,11 @@ from typing import Any
 from raycert.cases.levels import LEVELS
 from raycert.cases.table import PROBLEM_1, PROBLEM_2
 from raycert.oracle.reports import reading
+from raycert.oracle.reports.foreign import clean, legible
 from raycert.oracle.reports.junit import junit
 from raycert.oracle.reports.markdown import markdown
 from raycert.oracle.reports.picture import pictures
-from raycert.oracle.reports.reading import Json, clean, count, intervals, number
+from raycert.oracle.reports.reading import Json, count, intervals, number
 
 LISTED, AT_MOST = 100, 4000
 """How many failing rows of a family are listed, and how many in all."""
@@ -26,6 +27,7 @@ SHOWN = 20
 
 
 def page(certificate: Json) -> str:
+    certificate = legible(certificate)
     return render(
         "page.html",
         ("page.css",),

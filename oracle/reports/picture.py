@@ -16,7 +16,8 @@ from xml.etree.ElementTree import Element, tostring
 from raycert.cases.formats import FORMATS, Format
 from raycert.cases.forms import read_ray, read_solid
 from raycert.cases.model import Refused
-from raycert.oracle.reports.reading import Json, clean
+from raycert.oracle.reports.foreign import clean
+from raycert.oracle.reports.reading import Json
 from raycert.oracle.reports.section import ASPECT, Slice, section
 
 WIDTH, GUTTER = 480, 66

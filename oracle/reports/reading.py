@@ -1,13 +1,12 @@
 """What a certificate says, read once for every report: verdict, failures, what was left out.
 
 Also the words and numbers as every report prints them. Whatever a client said of itself is hostile
-until `clean` has seen it.
+until `foreign` has seen it.
 """
 
 from __future__ import annotations
 
 import json
-import unicodedata
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -18,39 +17,13 @@ from typing import Any, Literal
 from raycert.cases.levels import upto
 from raycert.cases.model import Refused
 from raycert.oracle.certify.certificate import CERTIFICATE_VERSION
+from raycert.oracle.reports.foreign import ELLIPSIS, clean
 
 Json = dict[str, Any]
 State = Literal["granted", "part", "accepted", "refused", "interrupted"]
 Mark = Literal["passed", "failed", "open"]
 
-
-HIDDEN = {"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"}
-"""Categories that print nothing, change the direction, or are no characters at all."""
-MARKS = {"Mn", "Me"}
-UNKNOWN = "\ufffd"
-ELLIPSIS = "\u2026"
-SHORT, LONG = 60, 300
-
-
-def clean(text: str, most: int = LONG) -> str:
-    """Return one line of at most `most` characters that any terminal, XML or page can hold.
-
-    White space becomes a space, what is hidden becomes U+FFFD, and of marks piled on a letter two
-    are left.
-    """
-    kept: list[str] = []
-    piled = 0
-    for char in text[: 4 * most]:
-        category = unicodedata.category(char)
-        piled = piled + 1 if category in MARKS else 0
-        if char.isspace():
-            kept.append(" ")
-        elif category in HIDDEN:
-            kept.append(UNKNOWN)
-        elif piled <= 2:
-            kept.append(char)
-    whole = len(text) <= 4 * most and len(kept) <= most
-    return "".join(kept) if whole else "".join(kept[: most - 1]) + ELLIPSIS
+SHORT = 60
 
 
 def count(n: int, noun: str) -> str:

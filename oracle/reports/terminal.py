@@ -8,6 +8,7 @@ from rich.text import Text
 
 from raycert.cases.levels import LEVELS
 from raycert.oracle.reports import reading
+from raycert.oracle.reports.foreign import legible
 from raycert.oracle.reports.reading import Json, number
 
 SHOWN = 8
@@ -23,6 +24,7 @@ STYLES = {
 
 def report(certificate: Json, console: Console) -> None:
     """Print a certificate for people. What a client said is printed as text, never as markup."""
+    certificate = legible(certificate)
     console.print(_solids(certificate))
     console.print(_families(certificate, console.width))
     likely = [f"likely fault: {line}" for line in reading.likely(certificate)]
@@ -42,7 +44,7 @@ def _solids(certificate: Json) -> Table:
         table.add_column(name, no_wrap=name != "convention")
     for name, solid in certificate["solids"].items():
         cells = [_level(solid["levels"][level]) for level in LEVELS]
-        table.add_row(name, *cells, solid["convention"])
+        table.add_row(Text(name), *cells, Text(solid["convention"]))
     return table
 
 
@@ -69,7 +71,7 @@ def _families(certificate: Json, width: int) -> Table:
             table.add_row(Text(last, "bold"))
         worst = family["worst"]
         table.add_row(
-            "  " + family["family"],
+            Text("  " + family["family"]),
             str(family["rows"]),
             *(number(worst[key]) for key in ("strict_k", "squared_k", "ulps")),
             _fails(family["levels"]),

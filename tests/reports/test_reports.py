@@ -12,12 +12,12 @@ from rich.console import Console
 
 import shared.certificates as made_up
 from raycert.cases.model import Refused
+from raycert.oracle.reports.foreign import clean
 from raycert.oracle.reports.junit import junit
 from raycert.oracle.reports.markdown import code, markdown
 from raycert.oracle.reports.page import WRITERS, page
 from raycert.oracle.reports.reading import (
     check,
-    clean,
     count,
     failing,
     intervals,
@@ -214,7 +214,7 @@ def test_a_page_with_thousands_of_failures_stays_small() -> None:
 
 
 def test_words_and_numbers() -> None:
-    assert clean("a\tb\x00\u202ec\ud800") == "a b\ufffd\ufffdc\ufffd"
+    assert clean("a\tb\x00\u202ec\ud800") == r"a b\x00\u202ec\ud800"
     assert clean("x" * 1000, 10) == "x" * 9 + "\u2026"
     assert clean("e" + "\u0301" * 9) == "e\u0301\u0301"
     assert clean("\u05d0\u05d1 \U0001f600") == "\u05d0\u05d1 \U0001f600"
