@@ -28,7 +28,7 @@ from raycert.cases.model import (
     Union,
     types,
 )
-from raycert.cases.protocol import Hello, Pairs, Reply
+from raycert.cases.protocol import Hello, Pairs, Reply, cut
 from raycert.oracle.client.dialogue import Limits, Outcome, Question, silence
 from raycert.oracle.client.process import Failure
 
@@ -147,7 +147,7 @@ def adapter_faults(asked: Sequence[Easy], outcomes: Mapping[str, Outcome]) -> li
     replies = [(case, outcome) for case, outcome in given if isinstance(outcome, Reply)]
     refused = [text for _, reply in replies if (text := reply.unsupported or reply.error)]
     if 2 * len(refused) > len(asked):
-        return [f"It answers most easy cases with {refused[0]!r}. {DECLARE}"]
+        return [f"It answers most easy cases with {cut(refused[0], 160)!r}. {DECLARE}"]
     compared = (_compared(case, reply) for case, reply in replies if silence(reply) is None)
     return _of_answers([pair for pair in compared if pair is not None])
 
