@@ -3,6 +3,7 @@
 run          from a plan to a result: greet, select, ask, grade
 selection    which rows are sent
 grading      one row, one outcome: the levels it passes, and how far off the answer is
+measured     the errors that are shown of every failure, on all cores where they are many
 verdict      levels by type of solid, conventions, and whether what was asked is granted
 certificate  all of it as JSON, with the case table and the worst answers
 diagnosis    what the failures have in common, and where the answers belie the hello

@@ -78,6 +78,11 @@ class Grade:
         """Return all errors."""
         return self.strict, self.squared, self.ulps
 
+    def take(self, steps: Mapping[Measure, int], ulps: float) -> None:
+        """Take errors that were measured elsewhere."""
+        self.__dict__["_brackets"] = {m: Bracket.at(step) for m, step in steps.items()}
+        self.__dict__["ulps"] = ulps
+
     def fault(self, level: Level) -> str | None:
         """Return why the row fails a level, or None. A row not decisive can only be malformed."""
         return self.faults.get(level)

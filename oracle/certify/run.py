@@ -23,6 +23,7 @@ from raycert.oracle.certify.diagnosis import contradictions, diagnose
 from raycert.oracle.certify.environment import environment
 from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.known import Expectations, Matched, failed_level, match, record
+from raycert.oracle.certify.measured import measured
 from raycert.oracle.certify.selection import Left, Selection, able, select
 from raycert.oracle.certify.verdict import Verdict, verdict
 from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target
@@ -283,11 +284,13 @@ class _Answers:
         with self._watch.counting("judging", len(answered)) as advance:
             try:
                 with interruptible():
+                    known = len(self.grades)
                     for row in answered:
-                        graded = grade(row, outcomes[row.id], self._prepared.hello)
-                        if graded.faults:
-                            graded.measure()  # it is shown: now, where the progress is
-                        self.grades.append(graded)
+                        self.grades.append(grade(row, outcomes[row.id], self._prepared.hello))
+                    graded = self.grades[known:]
+                    del self.grades[known:]
+                    for one in measured(graded):
+                        self.grades.append(one)
                         advance()
             except KeyboardInterrupt:
                 self.stopped = True
