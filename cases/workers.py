@@ -16,6 +16,7 @@ from typing import Any, ParamSpec, TypeVar
 from raycert.cases.interrupts import AT_LAST, SIGNALS, held
 
 Parameters = ParamSpec("Parameters")
+_ending = threading.Lock()
 Result = TypeVar("Result")
 
 
@@ -80,6 +81,7 @@ def _begin() -> None:
 def _end_worker(number: int, _: FrameType | None = None) -> None:
     if threading.current_thread() is threading.main_thread():
         signal.signal(signal.SIGTERM, signal.SIG_IGN)  # a second one would cut this short
+    _ending.acquire()  # for good: the parent's word and its death may come together
     for call in AT_LAST:
         call()
     atexit._run_exitfuncs()  # temporary folders

@@ -32,11 +32,14 @@ WAIT = 0.5
 """Seconds for all that were killed to be gone."""
 PR_SET_CHILD_SUBREAPER = 36
 _numbers = count()
+_used = False
 _adopts = False
 
 
 def environment() -> tuple[str, dict[str, str]]:
     """Return a new mark, and the environment that has it beside the marks that are ours."""
+    global _used
+    _used = True
     if interrupts.alone():
         _adopt()
     mark = f"{OWN}.{next(_numbers)};"
@@ -61,7 +64,7 @@ def end(mark: str) -> None:
 
 def end_all() -> None:
     """End all that clients of this process have started."""
-    if _adopts or GROUPS:
+    if _used:
         for mark in list(GROUPS):
             kill_group(mark)
         _kill(lambda place: _is_marked(place, OWN) or (_adopts and _is_orphan(place)))

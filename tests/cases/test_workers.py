@@ -6,11 +6,13 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
 import pytest
 
+from raycert.cases import workers
 from raycert.cases.workers import Workers
 from shared.processes import gone, linger
 
@@ -35,6 +37,27 @@ def test_signals_are_not_for_them_and_leaving_ends_them(tmp_path: Path) -> None:
                 os.kill(pid, number)
         assert not any(future.done() for future in under_way)
     assert gone(pids)
+
+
+def test_a_worker_ends_once_whatever_tells_it_to(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The parent's word is being obeyed when its death is noticed: that must not cut it short."""
+    first, done = threading.Event(), []
+
+    def last() -> None:
+        first.set()
+        time.sleep(0.05)
+        done.append("ended")
+
+    monkeypatch.setattr(workers, "AT_LAST", [last])
+    monkeypatch.setattr(workers.atexit, "_run_exitfuncs", lambda: None)
+    monkeypatch.setattr(workers, "_ending", threading.Lock())
+    monkeypatch.setattr(os, "_exit", lambda _: done.append("exit"))
+    threads = [threading.Thread(target=workers._end_worker, args=(15,), daemon=True) for _ in "12"]
+    threads[0].start()
+    first.wait(5)
+    threads[1].start()
+    threads[0].join(5)
+    assert done == ["ended", "exit"]
 
 
 def test_they_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:

@@ -33,7 +33,7 @@ COMMANDS = {
         *CLIENT, "pids",
     ),
 }  # fmt: skip
-LONGEST = {"certify": 3.0, "escapes": 3.0, "hunt": 6.0}
+LONGEST = {"certify": 4.0, "escapes": 4.0, "hunt": 6.0}
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
 
 
@@ -49,6 +49,13 @@ def left(token: str) -> list[str]:
     return found
 
 
+def started(file: Path) -> None:
+    """Wait until a client has begun."""
+    deadline = time.monotonic() + 20
+    while not file.exists() and time.monotonic() < deadline:
+        time.sleep(0.01)
+
+
 def kill(kind: str, number: int, dice: random.Random, folder: Path) -> tuple[str, list[str]]:
     """Run a command, kill it, and return how it ended and what is wrong with what it left."""
     out, tmp, token = folder / "out", folder / "tmp", f"KILLED-{secrets.token_hex(8)}"
@@ -60,7 +67,9 @@ def kill(kind: str, number: int, dice: random.Random, folder: Path) -> tuple[str
             COMMANDS[kind], cwd=out, env=environment, stdout=errors, stderr=errors,
             start_new_session=True,
         )  # fmt: skip
-        time.sleep(dice.uniform(0.3, LONGEST[kind]))
+        if dice.random() < 0.8:
+            started(out / "pids")
+        time.sleep(dice.uniform(0.05, LONGEST[kind]))
         for again in range(dice.choice((1, 2))):
             time.sleep(again * dice.uniform(0, 0.1))
             # As a terminal does: to the whole group.
