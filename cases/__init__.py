@@ -17,6 +17,7 @@ binary32) and is taken as exactly the number it is; -0 is 0.
     vectors     three numbers as a vector
     numbers     a ray and a solid as a list of numbers, neighbours on the grid of a format
     forms       rays and solids as JSON objects, and the line that asks about them
+    domain      what an implementation is for, and how exact it is: lengths, distances, shapes
     protocol    the messages of the line protocol, and the implementation's side of it
     scene       solids, a camera and a size, and the ray of each pixel
     table       the three tables of the case analysis, as data

@@ -23,9 +23,10 @@ from functools import cache
 from math import inf, isinf, isnan
 from typing import Any, BinaryIO, Literal, TypeVar
 
+from raycert.cases.domain import EVERYWHERE, EXACT, Domain, Tolerance, read_domain, read_tolerance
 from raycert.cases.formats import BINARY64, FORMATS, SPELLINGS, Format, Spelling, parse, spell
 from raycert.cases.forms import question, read_ray, read_solid
-from raycert.cases.model import SOLIDS, Ray, Refused, Solid, leaves
+from raycert.cases.model import SOLIDS, Ray, Refused, Solid, leaves, real
 
 VERSION = 1
 Answers = Literal["intervals", "first", "any"]
@@ -38,6 +39,8 @@ CHOICES: dict[str, Iterable[str]] = {
 """The fields of a hello that are one of some words."""
 TOUCHES = ("tangent", "wall", "cap", "rim", "start")
 """The kinds of touch that a convention may keep or drop."""
+DEGENERATE = ("zero_direction", "zero_radius", "flat_box")
+"""The kinds of degenerate input that an implementation may declare to answer."""
 
 Pairs = tuple[tuple[float, float], ...]
 Intersect = Callable[[Solid, Ray], Iterable[tuple[float, float]]]
@@ -95,12 +98,25 @@ class Hello:
     precision: str = "binary64"
     convention: str = "closed"
     numbers: Spelling = "decimal"
-    tolerance: float = 0.0
+    tolerance: Tolerance = EXACT
     from_inside: FromInside = "zero"
+    domain: Domain = EVERYWHERE
+    degenerate: tuple[str, ...] = ()
+    infinity: float | None = None
 
     @property
     def format(self) -> Format:
         return FORMATS[self.precision]
+
+    def form(self) -> dict[str, Any]:
+        """Return the fields as JSON has them."""
+        form = {name: getattr(self, name) for name in Hello.__slots__}
+        form |= {name: list(form[name]) for name in ("solids", "degenerate")}
+        return form | {name: form[name].form() for name in ("tolerance", "domain")}
+
+    def but(self, fields: dict[str, Any]) -> Hello:
+        """Return the same with some fields as a JSON object has them. Raises `BadLine`."""
+        return read_fields(self.form() | fields)
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,47 +169,45 @@ def reply_hit(id: str, hit: bool) -> bytes:
 
 
 def write_hello(hello: Hello) -> bytes:
-    fields = {name: getattr(hello, name) for name in Hello.__slots__}
-    return encode({"hello": VERSION, **fields, "solids": list(hello.solids)})
+    return encode({"hello": VERSION, **hello.form()})
 
 
 def read_hello(line: bytes) -> Hello:
     """Return the declaration on a line. Raises `BadLine` naming the field that is wrong."""
     try:
-        return _hello(decode(line), line)
+        message = decode(line)
+        if message.get("hello") != VERSION or message["hello"] is True:
+            expected = '{"hello": 1, "name": ...}'
+            raise BadLine(f"hello is not {VERSION}: {_shown(line)}; expected {expected}")
+        return read_fields({name: message[name] for name in message if name != "hello"})
     except RecursionError:
         raise BadLine(f"is nested too deep: {_shown(line)}") from None
 
 
-def _hello(message: dict[str, Any], line: bytes) -> Hello:
-    if message.get("hello") != VERSION or message["hello"] is True:
-        expected = '{"hello": 1, "name": ...}'
-        raise BadLine(f"hello is not {VERSION}: {_shown(line)}; expected {expected}")
-    known = {name: message[name] for name in Hello.__slots__ if name in message}
-    for name in message:
-        if name not in Hello.__slots__ and name != "hello":
+def read_fields(form: dict[str, Any]) -> Hello:
+    """Return the hello of which these are the fields. Raises `BadLine` naming what is wrong."""
+    for name in form:
+        if name not in Hello.__slots__:
             raise BadLine(f"hello.{name:.40} is not a field (fields: {', '.join(Hello.__slots__)})")
-    if not isinstance(known.get("name"), str) or not known["name"]:
+    if not isinstance(form.get("name"), str) or not form["name"]:
         raise BadLine("hello.name is missing or not a string")
     for name, allowed in CHOICES.items():
-        if name in known and known[name] not in list(allowed):
-            raise BadLine(f"hello.{name} is not one of {', '.join(allowed)}: {known[name]!r:.40}")
-    if "solids" in known:
-        known["solids"] = _solids(known["solids"])
-    if "tolerance" in known:
-        known["tolerance"] = _tolerance(known["tolerance"])
-    for name in ("version", "convention"):
-        if name in known and not isinstance(known[name], str):
-            raise BadLine(f"hello.{name} is not a string: {known[name]!r:.40}")
+        if name in form and form[name] not in list(allowed):
+            raise BadLine(f"hello.{name} is not one of {', '.join(allowed)}: {form[name]!r:.40}")
     for name in ("name", "version", "convention"):
-        if len(known.get(name, "")) > WORDS:
-            raise BadLine(f"hello.{name} has more than {WORDS} characters: {known[name]!r:.40}")
-    convention(known.get("convention", "closed"))
-    return Hello(**known)
+        if not isinstance(form.get(name, ""), str):
+            raise BadLine(f"hello.{name} is not a string: {form[name]!r:.40}")
+        if len(form.get(name, "")) > WORDS:
+            raise BadLine(f"hello.{name} has more than {WORDS} characters: {form[name]!r:.40}")
+    convention(form.get("convention", "closed"))
+    try:
+        return Hello(**form | {name: READ[name](form[name]) for name in READ if name in form})
+    except Refused as refusal:
+        raise BadLine(f"hello.{refusal.path} {refusal.reason}") from None
 
 
 def _solids(value: object) -> tuple[str, ...]:
-    if not isinstance(value, list) or not value:
+    if not isinstance(value, list | tuple) or not value:
         raise BadLine("hello.solids is not a list of one or more solid types")
     for kind in value:
         if not isinstance(kind, str) or kind not in SOLIDS:
@@ -202,12 +216,26 @@ def _solids(value: object) -> tuple[str, ...]:
     return tuple(dict.fromkeys(value))
 
 
-def _tolerance(value: object) -> float:
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise BadLine(f"hello.tolerance is not a number: {value!r:.40}")
-    if not 0 <= value <= BINARY64.largest:
-        raise BadLine(f"hello.tolerance is not a finite number >= 0: {value!r:.40}")
-    return float(value)
+def _degenerate(value: object) -> tuple[str, ...]:
+    if not isinstance(value, list | tuple) or not all(kind in DEGENERATE for kind in value):
+        raise Refused("degenerate", f"is not a list of {', '.join(DEGENERATE)}: {value!r:.40}")
+    return tuple(kind for kind in DEGENERATE if kind in value)
+
+
+def _infinity(value: object) -> float | None:
+    if value is None:
+        return None
+    number = real(value, "infinity")
+    if not number > 0:
+        raise Refused("infinity", f"is not a number > 0: {value!r:.40}")
+    return number
+
+
+READ: dict[str, Callable[[object], Any]] = {
+    "solids": _solids, "tolerance": read_tolerance, "domain": read_domain,
+    "degenerate": _degenerate, "infinity": _infinity,
+}  # fmt: skip
+"""The fields of a hello that are more than a word."""
 
 
 def convention(text: str) -> dict[str, bool]:

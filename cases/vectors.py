@@ -8,7 +8,7 @@ have vectors of their own: they are to share no line with what they check.
 
 from __future__ import annotations
 
-from math import hypot
+from math import hypot, isqrt
 from typing import Protocol, Self, TypeVar
 
 
@@ -59,3 +59,15 @@ def unit(a: tuple[float, float, float]) -> tuple[float, float, float]:
     x, y, z = a[0] / largest, a[1] / largest, a[2] / largest
     size = hypot(x, y, z)
     return (x / size, y / size, z / size)
+
+
+def norm_up(a: tuple[int, int, int]) -> int:
+    """Return N(a): |a| rounded up to the bit, 0 for 0; of integers that 2^64 divides.
+
+    With S = a.a and e = floor((bits(S) - 1) / 2) - 64, N = (isqrt(floor(S / 4^e)) + 1) 2^e.
+    """
+    square = dot(a, a)
+    if not square:
+        return 0
+    e = (square.bit_length() - 1) // 2 - 64
+    return isqrt(square >> 2 * e) + 1 << e

@@ -10,10 +10,11 @@ answers, and what is said of one answer.
 
 from __future__ import annotations
 
+import json
 import shlex
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field, replace
 from math import isfinite
 from typing import Any
 
@@ -22,10 +23,10 @@ from raycert.cases.corpus import FORMAT_VERSION, Corpus
 from raycert.cases.forms import write_ray, write_solid
 from raycert.cases.levels import LEVELS, Level
 from raycert.cases.model import Tree
-from raycert.cases.protocol import Hello
+from raycert.cases.protocol import DEGENERATE, Hello
 from raycert.cases.row import End, GoldenRow
 from raycert.cases.table import PROBLEM_1, PROBLEM_2, Row, cells, pairs_of_rows
-from raycert.oracle.certify.grading import Grade, by_convention, usual
+from raycert.oracle.certify.grading import Grade, Place, by_convention, usual
 from raycert.oracle.certify.selection import Left
 from raycert.oracle.certify.verdict import (
     Group,
@@ -44,9 +45,11 @@ from raycert.oracle.zoo.matrix import kind as how
 Json = dict[str, Any]
 Repeat = Callable[[str], str]
 """From a row's id to the command that asks it again."""
-CERTIFICATE_VERSION = 1
+CERTIFICATE_VERSION = 2
 DIFFERENCES = ("expected", "new", "unexpected_passes", "unmatched")
 """What a file of known failures may have to say of a run."""
+NOT_ASKED_AGAIN = {"asked_again": 0, "then_passed": []}
+"""What is said of state where no row was asked again."""
 MOST, MOST_PASSED = 12, 4
 """How many worst cases are shown: of failures, and where nothing failed."""
 
@@ -64,6 +67,8 @@ class Request:
     """The options that draw rows beside it."""
     golden: tuple[str, ...] = ()
     """The options that put another corpus in its place."""
+    overridden: tuple[str, ...] = ()
+    """The fields of the hello that were given by others than the target."""
 
     def repeat(self, *extra: str) -> str:
         asked = ("--level", self.level, "--convention", self.convention)
@@ -85,8 +90,8 @@ class Ran:
     interrupted: bool = False
     began: str | None = None
     """When, in UTC as ISO 8601 has it."""
-    diagnosis: tuple[str, ...] = ()
-    """What the failing answers look like: the likely fault."""
+    diagnosis: Json = field(default_factory=dict)
+    """What the failures have in common, as far as it was sought: `likely`, `easy`, `state`."""
 
 
 def certificate(
@@ -121,7 +126,7 @@ def certificate(
         "fresh": fresh,
         "tool": environment["tool"],
         "environment": {name: x for name, x in environment.items() if name != "tool"},
-        "run": {**asdict(ran), "notes": list(ran.notes), "diagnosis": list(ran.diagnosis)},
+        **_seen(ran),
         "tested": len(grades),
         "not_tested": {"solids": list(left.solids), "rows": left.rows},
         **_results(request, hello, grades),
@@ -131,12 +136,21 @@ def certificate(
     }
 
 
+def _seen(ran: Ran) -> Json:
+    """Return how the run went, and what the failures have in common."""
+    run = {**asdict(replace(ran, diagnosis={})), "notes": list(ran.notes)}
+    run.pop("diagnosis")
+    return {"run": run, "likely": [], "easy": [], "state": NOT_ASKED_AGAIN, **ran.diagnosis}
+
+
 def _question(request: Request, hello: Hello, corpus: Corpus, shard: str | None) -> Json:
     return {
         "asked": {"level": request.level, "convention": request.convention},
         "selection": list(request.selection),
         "shard": shard,
-        "subject": {"command": list(request.command), **asdict(hello)},
+        "subject": {"command": list(request.command), **hello.form()},
+        "overridden": list(request.overridden),
+        "domain": {"declared": hello.domain.form(), "words": hello.domain.words()},
         "corpus": {
             "version": corpus.version,
             "format": FORMAT_VERSION,
@@ -164,7 +178,7 @@ def _results(request: Request, hello: Hello, grades: Sequence[Grade]) -> Json:
 def _not_decisive(grades: Sequence[Grade], level: Level) -> Json:
     return {
         "rows": [g.row.id for g in grades if not g.counts(level)],
-        "outside": [g.row.id for g in grades if level in g.outside],
+        "wrong": [g.row.id for g in grades if level in g.beside],
     }
 
 
@@ -182,7 +196,26 @@ def _solid(group: Group) -> Json:
             }
             for level in LEVELS
         },
+        "outside": {level: _fares("right", _out(group, "outside"), level) for level in MEASURES},
+        "degenerate": {
+            kind: _fares("answered", of_kind, "sound")
+            for kind in DEGENERATE
+            if (of_kind := [g for g in _out(group, "degenerate") if kind in g.degenerate])
+        },
+        "measured": {level: None for level in MEASURES if not group.tally(level).granted},
     }
+
+
+def _out(group: Group, place: Place) -> list[Grade]:
+    """Return the grades of a place that is not the usual one; those of the range tier left out."""
+    return [g for g in group.grades if g.place == place and g.row.tier != "range"]
+
+
+def _fares(right: str, grades: Sequence[Grade], level: Level) -> Json:
+    """Return how rows fared that count for no level; `right` is what those that pass are called."""
+    fares = Counter(g.fare(level) for g in grades)
+    told = {right: fares["right"], "refused": fares["refused"], "wrong": fares["wrong"]}
+    return {"rows": len(grades), **told}
 
 
 def _levels(group: Group) -> Json:
@@ -325,7 +358,17 @@ def _failure(grade: Grade, repeat: Repeat) -> Json:
         "faults": dict(grade.faults),
         **_answered(grade),
         "reproduce": repeat(grade.row.id),
+        "explain": explaining(grade.row),
     }
+
+
+def explaining(row: GoldenRow) -> str:
+    """Return the command that derives a case: by its id, or by its numbers where it was drawn."""
+    if not row.id.startswith("fresh-"):
+        return f"raycert explain {row.id}"
+    case = _case(row)
+    given = json.dumps({name: case[name] for name in ("solid", "ray")}, separators=(",", ":"))
+    return f"raycert explain --json - <<< {shlex.quote(given)}"
 
 
 def _case(row: GoldenRow) -> Json:

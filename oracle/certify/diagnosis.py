@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from math import isinf, isnan, ldexp
+from typing import Any
 
 from raycert.cases.accept import Numbers
 from raycert.cases.formats import BINARY32, BINARY64, Format
@@ -35,8 +36,13 @@ SAMPLE = 48
 """Failures that every fault is tried on; all others are for those that explain these."""
 
 
-def diagnose(grades: Sequence[Grade]) -> list[str]:
-    """Return what the failing answers look like: one sentence, or none. For lists of intervals."""
+def diagnose(grades: Sequence[Grade]) -> list[dict[str, Any]]:
+    """Return the likely fault for each type of solid, as the certificate has it."""
+    return [found for group in by_solid(grades) for found in likely(group.name, group.grades)]
+
+
+def likely(solid: str, grades: Sequence[Grade]) -> list[dict[str, Any]]:
+    """Return what the failing answers look like: one finding, or none. For lists of intervals."""
     level, failing = failures(grades)
     if len(failing) < LEAST:
         return []
@@ -51,10 +57,13 @@ def diagnose(grades: Sequence[Grade]) -> list[str]:
     if len(named) != 1:
         return []
     fault, agreed = named[0]
-    return [
-        f"on {agreed} of {len(failing)} failures your answers are those of a tracer that "
-        f"{fault.does} ({fault.name}; {fault.origin})"
-    ]
+    tracer = fault.make()
+    agreeing = (g for g in failing if agrees(g, Outcome.of(tracer, g.row, g.judge.format)))
+    first = next(agreeing, failing[0])
+    said = {"fault": fault.name, "does": fault.does, "origin": fault.origin}
+    causes = [{**said, "rows": agreed, "first": first.row.id}]
+    counts = {"failures": len(failing), "explained": causes}
+    return [{"solid": solid, "level": level, **counts, "unexplained": len(failing) - agreed}]
 
 
 def failures(grades: Sequence[Grade]) -> tuple[Level, list[Grade]]:

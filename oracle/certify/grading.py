@@ -10,8 +10,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import inf
+from typing import Literal
 
 from raycert.cases.accept import Accept, Numbers
+from raycert.cases.domain import quantities
 from raycert.cases.levels import LEVELS, Level
 from raycert.cases.protocol import Hello, Reply, convention
 from raycert.cases.row import GoldenRow
@@ -25,16 +27,20 @@ from raycert.oracle.judge.moved import LAST_STEP, Measure
 
 MEASURED: tuple[Measure, ...] = ("strict", "squared")
 """The measures, from strict to lax."""
+Fare = Literal["right", "refused", "wrong"]
+Place = Literal["inside", "outside", "degenerate"]
 
 
 @dataclass(frozen=True)
 class Grade:
     """What came of one row. `faults` names, for each level it fails, the reason.
 
-    `outside` does so for the levels that the row does not decide: reported, and not counted. `said`
-    is None where there was no answer. The errors are measured when they are asked for: `strict`
-    and `squared` are the backward errors k, `ulps` the forward error; infinite where the answer is
-    none, or has another number of pairs.
+    `beside` does so for the levels that the row does not decide: reported, and not counted. `said`
+    is None where there was no answer; `refused` tells that this was said. `place` is where the row
+    lies: only those inside the declared domain count for a level, a convention or a window.
+
+    The errors are measured when they are asked for: `strict` and `squared` are the backward errors
+    k, `ulps` the forward error; infinite where the answer is none, or has another number of pairs.
     """
 
     row: GoldenRow
@@ -42,7 +48,10 @@ class Grade:
     faults: Mapping[str, str]
     judge: Judge
     decides: tuple[str, ...] = ()
-    outside: Mapping[str, str] = field(default_factory=dict)
+    beside: Mapping[str, str] = field(default_factory=dict)
+    place: Place = "inside"
+    refused: bool = False
+    degenerate: tuple[str, ...] = ()
 
     @property
     def answer(self) -> Numbers | None:
@@ -91,6 +100,12 @@ class Grade:
         """Whether the row decides a level, or fails whatever it decides."""
         return level in self.decides or level in self.faults
 
+    def fare(self, level: Level) -> Fare:
+        """Return how the row fared on a level, whether it decides it or not."""
+        if self.refused:
+            return "refused"
+        return "wrong" if level in self.faults or level in self.beside else "right"
+
     def accept(self, level: Level) -> Accept:
         return accept(self.row, self.judge, level)
 
@@ -103,29 +118,43 @@ class Grade:
         return self.said.keeps_touch(self.row.expected)
 
 
+def inside(grades: Iterable[Grade]) -> list[Grade]:
+    """Return the grades of the rows that the implementation is for."""
+    return [g for g in grades if g.place == "inside"]
+
+
 def usual(grades: Iterable[Grade]) -> list[Grade]:
-    """Return the grades that levels are about: those of the range tier are part of no level."""
-    return [g for g in grades if g.row.tier != "range"]
+    """Return the grades that levels are about: inside, and not of the range tier."""
+    return [g for g in inside(grades) if g.row.tier != "range"]
 
 
 def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
     judge = Judge(row.solid, row.ray, hello.format, row.tier, hello.tolerance)
-    quiet = silence(outcome)
+    quiet, place = silence(outcome), place_of(row, hello)
     said = None if isinstance(outcome, Failure) or quiet else claim(outcome, hello)
     whole = ": ".join(quiet or ()) if said is None else said.malformed(judge)
     if whole is not None:
-        return Grade(row, said, dict.fromkeys(LEVELS, whole), judge, row.decisive)
+        refused = isinstance(outcome, Reply) and said is None
+        silent: dict[str, str] = dict.fromkeys(LEVELS, whole)
+        return Grade(row, said, silent, judge, row.decisive, {}, place, refused)
     assert said is not None
     faults: dict[str, str] = {}
-    outside: dict[str, str] = {}
+    beside: dict[str, str] = {}
     decides = decisive(judge) if judge.tolerance else row.decisive
     for level in LEVELS:
         fault = _level_fault(level, row, said, judge, hello)
         if level not in decides:
-            outside |= {level: fault} if fault else {}
+            beside |= {level: fault} if fault else {}
         elif fault or faults:  # what fails a level fails those above it
             faults[level] = fault or next(reversed(faults.values()))
-    return Grade(row, said, faults, judge, decides, outside)
+    return Grade(row, said, faults, judge, decides, beside, place)
+
+
+def place_of(row: GoldenRow, hello: Hello) -> Place:
+    """Return where a row lies for what an implementation declares."""
+    if hello.domain and not hello.domain.holds(quantities(row.solid, row.ray)):
+        return "outside"
+    return "inside"
 
 
 def _level_fault(

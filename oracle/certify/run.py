@@ -197,7 +197,7 @@ def conduct(prepared: Prepared, watch: Watch | None = None) -> Result:
         seconds=round(time.monotonic() - clock, 3),
         interrupted=answers.stopped,
         began=began,
-        diagnosis=tuple(diagnose(grades)) if any(g.faults for g in grades) else (),
+        diagnosis={"likely": diagnose(grades)} if any(g.faults for g in grades) else {},
     )
     found = verdict(grades, plan.level, plan.convention)
     return Result(prepared, grades, ran, found, answers.changed)

@@ -15,16 +15,20 @@ from raycert.cases.levels import LEVELS, Level, upto
 from raycert.cases.model import leaves, lengths, type_of
 from raycert.cases.protocol import TOUCHES, convention
 from raycert.cases.row import GoldenRow
-from raycert.oracle.certify.grading import MEASURED, Grade, usual
+from raycert.oracle.certify.grading import MEASURED, Grade, inside, usual
 from raycert.oracle.exact.surd import sign
 
 
 @dataclass(frozen=True, slots=True)
 class Tally:
-    """How the rows of one solid type, or one family, fared on one level."""
+    """How the rows of one solid type, or one family, fared on one level.
+
+    The refused ones are part of the failed ones.
+    """
 
     passed: int
     failed: int
+    refused: int
     not_decisive: int
 
     @property
@@ -34,11 +38,12 @@ class Tally:
 
     @classmethod
     def of(cls, grades: Iterable[Grade], level: Level) -> Tally:
-        """Count the rows, those of the range tier left out."""
+        """Count the rows that levels are about."""
         rows = usual(grades)
-        failed = sum(g.fault(level) is not None for g in rows)
+        failing = [g for g in rows if g.fault(level)]
         counted = sum(g.counts(level) for g in rows)
-        return cls(counted - failed, failed, len(rows) - counted)
+        refused = sum(g.refused for g in failing)
+        return cls(counted - len(failing), len(failing), refused, len(rows) - counted)
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +56,7 @@ class Touches:
     def of(cls, grades: Sequence[Grade]) -> Touches:
         kept = {}
         for kind in TOUCHES:
-            met = [g for g in grades if any(span.touch == kind for span in g.row.intervals)]
+            met = [g for g in inside(grades) if any(span.touch == kind for span in g.row.intervals)]
             graded = [g.keeps_touch for g in met if g.keeps_touch is not None]
             if graded:
                 kept[kind] = (sum(graded), len(graded))
@@ -89,14 +94,14 @@ def window(grades: Iterable[Grade], level: Level, which: int) -> list[int] | Non
 
     Of lengths (which = 0) or of directions (1); None without such rows.
     """
-    rows = [(scales(g.row), g.fault(level) is None) for g in grades if g.row.tier == "range"]
+    rows = [(scales(g.row), not g.fault(level)) for g in inside(grades) if g.row.tier == "range"]
     along = [(s[which], ok) for s, ok in rows if (abs(s[0]) <= USUAL) == bool(which)]
     if not along:
         return None
     bad_low = max((s for s, ok in along if not ok and s < 0), default=-10000)
     bad_high = min((s for s, ok in along if not ok and s >= 0), default=10000)
-    inside = [0, *(s for s, ok in along if ok and bad_low < s < bad_high)]
-    return [min(inside), max(inside)]
+    held = [0, *(s for s, ok in along if ok and bad_low < s < bad_high)]
+    return [min(held), max(held)]
 
 
 def scales(row: GoldenRow) -> tuple[int, int]:

@@ -142,7 +142,7 @@ def _answer(one: Response, name: str, derivation: Derivation) -> Json:
         case _:
             said = numbers(graded.answer or (), derivation.format)
     errors = [number(x) for x in (graded.ulps, graded.strict, graded.squared)]
-    failed = {**graded.faults, **graded.outside}
+    failed = {**graded.faults, **graded.beside}
     levels = [
         ("failed" if level in failed else "passed", level in graded.row.decisive)
         for level in LEVELS

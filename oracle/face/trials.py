@@ -13,7 +13,7 @@ from raycert.answers import TALL, _framed
 from raycert.cases.corpus import read_corpus
 from raycert.cases.levels import Level
 from raycert.cases.model import Ray, Solid
-from raycert.cases.protocol import Hello, Reply
+from raycert.cases.protocol import Reply, read_fields
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify import run
 from raycert.oracle.certify.certificate import Json, Ran
@@ -123,7 +123,7 @@ def _is_importable(word: str, tracer: object) -> bool:
 def _in_this_process(tracer: Intersect, name: str, plan: Plan) -> Result:
     """Ask every row by a call."""
     declared: dict[str, Any] = {"name": name, **getattr(tracer, "hello", {})}
-    hello, began = Hello(**declared), time.monotonic()
+    hello, began = read_fields(declared), time.monotonic()
     corpus = read_corpus(hello.precision, solids=hello.solids)
     if absent := plan.selection.missing(corpus):
         raise run.NotInCorpus(f"not in the corpus: {', '.join(absent)}")

@@ -12,6 +12,7 @@ from functools import cached_property
 from math import frexp, inf, isinf
 
 from raycert.cases.accept import Accept, Numbers, Pairs, malformed
+from raycert.cases.domain import EXACT, Tolerance
 from raycert.cases.formats import BINARY64, Format
 from raycert.cases.levels import Level, Tier
 from raycert.cases.model import Intersection, Ray, Solid, Tree, leaves
@@ -66,7 +67,7 @@ class Judge:
     ray: Ray
     format: Format = BINARY64
     tier: Tier = "generic"
-    tolerance: float = 0.0
+    tolerance: Tolerance = EXACT
 
     @cached_property
     def exact(self) -> Intervals:

@@ -1,14 +1,16 @@
 """The same solid with every face moved, inward or outward: the two lists that sandwich an answer.
 
-A face moves at the ray's parameter t by delta(t) = k u s(t) + tolerance, where u = 2^-precision and
-s(t) = s0 + s1 t is the size of the numbers that meet there:
+A face moves at the ray's parameter t by delta(t) = k u s(t) + tolerance, where u = 2^-precision,
+the tolerance is a length and a part of the face's own size (the radius of a curved one, the
+thickness that a plane bounds; a half-space has none), and s(t) = s0 + s1 t is the size of the
+numbers that meet there:
 
     half_space                s0 = N(u) + N(point) + N(u - point)        s1 = 2 N(v)
     sphere                    s0 = N(u) + N(center) + r                  s1 = N(v)
     slab and both cylinders   s0 = N(u) + N(p) + N(q) + r + N(u - p)     s1 = 2 N(v)
 
-with N the norm rounded up (`norm`). With d the distance from axis or center, sigma = 1 outward and
--1 inward, and slack(t) = 0 (`strict`) or (k/4) u s(t)^2 (`squared`):
+with N the norm rounded up (`norm_up`). With d the distance from axis or center, sigma = 1 outward
+and -1 inward, and slack(t) = 0 (`strict`) or (k/4) u s(t)^2 (`squared`):
 
     curved face   d^2 <= (r + sigma delta)^2 + sigma slack,   r + sigma delta >= 0
     plane         c + b t <= sigma delta sqrt(S)              S the squared length of its normal
@@ -25,8 +27,10 @@ from functools import cached_property
 from math import isqrt
 from typing import Literal, NamedTuple
 
+from raycert.cases.domain import EXACT, Tolerance
 from raycert.cases.formats import Format
 from raycert.cases.model import (
+    Cylinder,
     Difference,
     HalfSpace,
     InfiniteCylinder,
@@ -40,8 +44,8 @@ from raycert.cases.model import (
     points,
     radius,
 )
-from raycert.cases.vectors import dot, minus
-from raycert.oracle.exact.grid import Grid, IntVector
+from raycert.cases.vectors import minus, norm_up
+from raycert.oracle.exact.grid import Grid
 from raycert.oracle.exact.intervals import EVERYTHING, NOTHING, Intervals, clip, intersection
 from raycert.oracle.exact.leaf import Plane, Quadric, ball, capped, caps, half_space, wall
 from raycert.oracle.exact.surd import INFINITY, ZERO, sign_1
@@ -84,46 +88,45 @@ LAST_STEP = 2 * (54 + 5)
 
 @dataclass(frozen=True, slots=True)
 class Shift:
-    """delta(t) = d0 + d1 t, and slack(t) = g0 + g1 t + g2 t^2, in grid units, all >= 0."""
+    """delta(t) = d0 + d1 t, and slack(t) = g0 + g1 t + g2 t^2, in grid units, all >= 0.
+
+    To delta, `wall` is added for a curved face, and `cap` for a plane.
+    """
 
     d0: int
     d1: int = 0
     g0: int = 0
     g1: int = 0
     g2: int = 0
-
-
-def norm(x: IntVector) -> int:
-    """Return N(x): |x| rounded up to the bit, 0 for 0; x in units of a grid refined by REFINE.
-
-    With S = x.x and e = floor((bits(S) - 1) / 2) - 64, N = (isqrt(floor(S / 4^e)) + 1) 2^e.
-    """
-    square = dot(x, x)
-    if not square:
-        return 0
-    e = (square.bit_length() - 1) // 2 - 64
-    return isqrt(square >> 2 * e) + 1 << e
+    wall: int = 0
+    cap: int = 0
 
 
 def size(leaf: Leaf, grid: Grid) -> tuple[int, int]:
     """Return (s0, s1), the size of the numbers that meet on a leaf."""
-    u, speed = grid.u, norm(grid.v)
+    u, speed = grid.u, norm_up(grid.v)
     places, r = [grid.point(place) for place in points(leaf)], radius(leaf)
-    meeting = norm(u) + sum(map(norm, places)) + (grid.scalar(r) if r else 0)
+    meeting = norm_up(u) + sum(map(norm_up, places)) + (grid.scalar(r) if r else 0)
     if isinstance(leaf, Sphere):
         return meeting, speed
-    return meeting + norm(minus(u, places[0])), 2 * speed
+    return meeting + norm_up(minus(u, places[0])), 2 * speed
+
+
+def own_sizes(leaf: Leaf, grid: Grid) -> tuple[int, int]:
+    """Return the radius of a leaf and its thickness N(q - p); 0 for what it has not."""
+    match leaf:
+        case HalfSpace():
+            return 0, 0
+        case Sphere() | InfiniteCylinder():
+            return grid.scalar(leaf.radius), 0
+    thickness = norm_up(minus(grid.point(leaf.q), grid.point(leaf.p)))
+    return 0 if isinstance(leaf, Slab) else grid.scalar(leaf.radius), thickness
 
 
 def thinness(leaf: Leaf, grid: Grid) -> int:
-    """Return 8c: the smaller of a leaf's radius and its thickness N(q - p); 0 for a half-space."""
-    match leaf:
-        case HalfSpace():
-            return 0
-        case Sphere() | InfiniteCylinder():
-            return grid.scalar(leaf.radius)
-    thickness = norm(minus(grid.point(leaf.q), grid.point(leaf.p)))
-    return thickness if isinstance(leaf, Slab) else min(thickness, grid.scalar(leaf.radius))
+    """Return 8c: the smaller of a leaf's radius and its thickness; 0 for a half-space."""
+    radius, thickness = own_sizes(leaf, grid)
+    return min(radius, thickness) if isinstance(leaf, Cylinder) else max(radius, thickness)
 
 
 def below_zero(a: int, b: int, c: int, grid: Grid) -> Intervals:
@@ -159,18 +162,20 @@ def half_line(b0: int, b1: int, c0: int, c1: int, d: int, grid: Grid) -> Interva
 
 def moved_wall(face: Quadric, radius: int, move: Shift, sigma: int, grid: Grid) -> Intervals:
     """Return the t >= 0 within a curved face moved by sigma delta."""
+    d0 = move.d0 + move.wall
     a = face.a - face.scale * (move.d1 * move.d1 + sigma * move.g2)
-    b = 2 * face.b - face.scale * (2 * (sigma * radius + move.d0) * move.d1 + sigma * move.g1)
-    c = face.c - face.scale * (move.d0 * (2 * sigma * radius + move.d0) + sigma * move.g0)
+    b = 2 * face.b - face.scale * (2 * (sigma * radius + d0) * move.d1 + sigma * move.g1)
+    c = face.c - face.scale * (d0 * (2 * sigma * radius + d0) + sigma * move.g0)
     within = below_zero(a, b, c, grid)
     if sigma > 0:
         return within
-    return intersection((within, half_line(move.d1, 0, move.d0 - radius, 0, 0, grid)))
+    return intersection((within, half_line(move.d1, 0, d0 - radius, 0, 0, grid)))
 
 
 def moved_plane(face: Plane, move: Shift, sigma: int, grid: Grid) -> Intervals:
     """Return the t >= 0 within a plane moved by sigma delta."""
-    return half_line(face.b, -sigma * move.d1, face.c, -sigma * move.d0, face.square, grid)
+    d0 = move.d0 + move.cap
+    return half_line(face.b, -sigma * move.d1, face.c, -sigma * d0, face.square, grid)
 
 
 class Faces(NamedTuple):
@@ -215,11 +220,13 @@ class Movable:
     solid: Solid
     ray: Ray
     format: Format
-    tolerance: float = 0.0
+    tolerance: Tolerance = EXACT
 
     @cached_property
     def grid(self) -> Grid:
-        return Grid.of(self.solid, self.ray, REFINE, (self.tolerance,))
+        _, bottom = self.tolerance.relative.as_integer_ratio()
+        refine = REFINE + bottom.bit_length() - 1
+        return Grid.of(self.solid, self.ray, refine, (self.tolerance.absolute,))
 
     @cached_property
     def sizes(self) -> dict[Leaf, tuple[int, int]]:
@@ -232,18 +239,23 @@ class Movable:
     def shift(self, leaf: Leaf, k: Step, measure: Measure) -> Shift:
         s0, s1 = self.sizes[leaf]
         bits = self.format.precision
-        d0 = k.times(s0, bits) + self.grid.scalar(self.tolerance)
-        d1 = k.times(s1, bits)
-        if measure == "strict":
-            return Shift(d0, d1)
-        squares = (s0 * s0, 2 * s0 * s1, s1 * s1)
-        return Shift(d0, d1, *(k.times(s, bits + 2) for s in squares))
+        squares = (s0 * s0, 2 * s0 * s1, s1 * s1) if measure == "squared" else (0, 0, 0)
+        slack = (k.times(s, bits + 2) for s in squares)
+        allowed, *parts = self._allowed(leaf)
+        return Shift(k.times(s0, bits) + allowed, k.times(s1, bits), *slack, *parts)
+
+    def _allowed(self, leaf: Leaf) -> tuple[int, int, int]:
+        """Return the declared tolerance: a length, and its parts for a curved face and a plane."""
+        top, bottom = self.tolerance.relative.as_integer_ratio()
+        radius, thickness = own_sizes(leaf, self.grid) if top else (0, 0)
+        length = self.grid.scalar(self.tolerance.absolute)
+        return length, radius * top // bottom, thickness * top // bottom
 
     def tolerance_is_fine(self) -> bool:
         """Whether the declared tolerance is at most each leaf's c; half-spaces have none."""
-        tolerance = self.grid.scalar(self.tolerance)
         solid = [leaf for _, leaf in leaves(self.solid) if not isinstance(leaf, HalfSpace)]
-        return all(tolerance <= self.constant(leaf).d0 for leaf in solid)
+        allowed = {leaf: self._allowed(leaf) for leaf in solid}
+        return all(a + max(b, c) <= self.constant(x).d0 for x, (a, b, c) in allowed.items())
 
     def constant(self, leaf: Leaf) -> Shift:
         """Return the move by c: 1/8 of the smaller of radius and thickness, 0 for a half-space."""

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from importlib.resources import files
 from typing import Any
 
+from raycert.cases.domain import read_tolerance
 from raycert.cases.levels import LEVELS
 from raycert.cases.table import PROBLEM_1, PROBLEM_2
 from raycert.oracle.reports import reading
@@ -138,7 +139,7 @@ def _made(certificate: Json) -> list[tuple[str, str]]:
         "command": clean(" ".join(declared["command"]), 500),
         "declares": f"{declared['answers']}, {declared['precision']}, "
         f"{clean(declared['convention'])}, numbers as {declared['numbers']}, "
-        f"tolerance {declared['tolerance']:g}",
+        f"tolerance {read_tolerance(declared['tolerance']).words() or 'none'}",
         "solids": ", ".join(declared["solids"]),
         "asked": reading.asked(certificate),
         "corpus": f"{corpus['version']}, {corpus['precision']}, {corpus['rows']:,} rows",

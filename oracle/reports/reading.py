@@ -14,6 +14,7 @@ from importlib.resources import files
 from math import isfinite
 from typing import Any, Literal
 
+from raycert.cases.domain import read_tolerance
 from raycert.cases.levels import upto
 from raycert.cases.model import Refused
 from raycert.oracle.certify.certificate import CERTIFICATE_VERSION
@@ -94,8 +95,10 @@ def asked(certificate: Json) -> str:
     level, wanted = certificate["asked"]["level"], certificate["asked"]["convention"]
     tested = {solid["convention"] for solid in certificate["solids"].values()} - {"not tested"}
     what = f"{level} and {clean(wanted)}" if tested else f"{level}, convention not tested"
-    tolerance = certificate["subject"]["tolerance"]
-    return what + (f", faces moved by a tolerance of {tolerance:g}" if tolerance else "")
+    domain = certificate["domain"]["words"]
+    what += f", for {domain}" if domain else ""
+    tolerance = read_tolerance(certificate["subject"]["tolerance"]).words()
+    return what + (f", faces moved by a tolerance of {tolerance}" if tolerance else "")
 
 
 def surprises(certificate: Json) -> list[str]:
@@ -183,7 +186,7 @@ def left_out(certificate: Json) -> list[str]:
         lines.append(f"only shard {clean(certificate['shard'])} of the corpus")
     for level, ids in certificate["not_decisive"].items():
         if ids["rows"]:
-            wrong = f", {len(ids['outside'])} of them answered wrong" if ids["outside"] else ""
+            wrong = f", {len(ids['wrong'])} of them answered wrong" if ids["wrong"] else ""
             lines.append(f"{level}: {len(ids['rows'])} rows do not decide{wrong}; not counted")
     return lines
 
@@ -211,8 +214,13 @@ def notes(certificate: Json) -> list[str]:
 
 
 def likely(certificate: Json) -> list[str]:
-    """Return the likely fault: one sentence, or none."""
-    return [clean(line) for line in certificate["run"]["diagnosis"]]
+    """Return the likely faults, a sentence each."""
+    return [
+        f"on {cause['rows']} of {found['failures']} failures of {found['solid']} your answers are "
+        f"those of a tracer that {cause['does']} ({cause['fault']}; {cause['origin']})"
+        for found in certificate["likely"]
+        for cause in found["explained"]
+    ]
 
 
 def beside(certificate: Json, note: str = "") -> list[str]:

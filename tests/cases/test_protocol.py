@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from raycert.cases.domain import Tolerance
 from raycert.cases.formats import FORMATS, SPELLINGS, spell
 from raycert.cases.model import SOLIDS, Cylinder, Ray
 from raycert.cases.protocol import (
@@ -48,7 +49,7 @@ HELLOS = st.builds(
     precision=st.sampled_from(sorted(FORMATS)),
     convention=st.sampled_from(["closed", "regularized", "closed but rim, cap"]),
     numbers=st.sampled_from(SPELLINGS),
-    tolerance=st.floats(0, 1e300),
+    tolerance=st.builds(Tolerance, st.floats(0, 1e300), st.floats(0, 1)),
     from_inside=st.sampled_from(FROM_INSIDE),
 )
 
@@ -64,7 +65,7 @@ def test_a_hello_survives_its_line(hello: Hello):
 
 def test_all_of_a_hello_but_the_name_may_be_left_out():
     assert read_hello(b'{"hello": 1, "name": "x"}') == Hello(
-        "x", "", "intervals", tuple(SOLIDS), "binary64", "closed", "decimal", 0.0, "zero"
+        "x", "", "intervals", tuple(SOLIDS), "binary64", "closed", "decimal", Tolerance(), "zero"
     )
 
 

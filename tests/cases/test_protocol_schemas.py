@@ -16,6 +16,7 @@ from hypothesis import given, settings
 from jsonschema import Draft202012Validator
 
 from raycert.cases import protocol
+from raycert.cases.domain import Tolerance
 from raycert.cases.formats import BINARY64, FORMATS, SPELLINGS, Spelling
 from raycert.cases.model import Cylinder, Ray, Refused, Sphere
 from raycert.cases.protocol import (
@@ -120,7 +121,7 @@ def test_the_ends_of_the_range_are_described(radius: float, numbers: Spelling) -
 def test_both_hellos_are_described() -> None:
     assert PART["hello", "asked"].is_valid({"hello": 1})
     for answers in ANSWERS:
-        line = write_hello(Hello("x", "2", answers, ("slab",), tolerance=0.5))
+        line = write_hello(Hello("x", "2", answers, ("slab",), tolerance=Tolerance(0.5)))
         assert PART["hello", "declared"].is_valid(json.loads(line))
     assert not PART["hello", "asked"].is_valid({"hello": 1, "name": "x"})
     assert not PART["hello", "declared"].is_valid({"hello": 1})

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from raycert.cases.domain import Tolerance
 from raycert.cases.levels import Level
 from raycert.cases.model import Ray, Solid, type_of
 from raycert.cases.protocol import Hello, Reply
@@ -189,7 +190,7 @@ def test_a_tolerance_beyond_c_decides_nothing() -> None:
     """A tolerance that swallows the solid buys no level; a fine one leaves its rows to decide."""
     rows = [row for row in golden().rows if row.family == "perpendicular"]
     for tolerance, decided in ((1e300, False), (2.0**-40, True)):
-        hello = Hello("tolerant", tolerance=tolerance)
+        hello = Hello("tolerant", tolerance=Tolerance(tolerance))
         graded = [grade(row, Reply(row.id, intervals=row.expected), hello) for row in rows]
         curved = [g for g in graded if type_of(g.row.solid) == "cylinder"]
         assert curved
@@ -202,7 +203,7 @@ def test_an_answer_within_the_tolerance_is_stable_and_beyond_it_is_not() -> None
     row = next(row for row in crossed if 0 < row.expected[0][0] < row.expected[0][1] < 99)
     off = tuple((a - 2.0**-41, b + 2.0**-41) for a, b in row.expected)
     for tolerance, right in ((2.0**-36, True), (0.0, False)):
-        hello = Hello("tolerant", tolerance=tolerance)
+        hello = Hello("tolerant", tolerance=Tolerance(tolerance))
         graded = grade(row, Reply(row.id, intervals=off), hello)
         assert (graded.fault("stable") is None) == right
 

@@ -16,7 +16,8 @@ from raycert.cases.formats import BINARY64
 from raycert.cases.levels import LEVELS
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify import diagnosis as diagnoses
-from raycert.oracle.certify.diagnosis import LEAST, SHARE, close, diagnose
+from raycert.oracle.certify.certificate import Json
+from raycert.oracle.certify.diagnosis import LEAST, SHARE, close, likely
 from raycert.oracle.certify.grading import Grade
 from raycert.oracle.judge.answer import Listed
 from raycert.oracle.judge.levels import Judge
@@ -81,7 +82,12 @@ def graded(intersect: Intersect, independently: bool = True) -> list[Grade]:
     return grades
 
 
-def without(planted: Fault, grades: Sequence[Grade], patch: pytest.MonkeyPatch) -> list[str]:
+def diagnose(grades: Sequence[Grade]) -> list[Json]:
+    """Return what is likely over all solids together."""
+    return likely("all", grades)
+
+
+def without(planted: Fault, grades: Sequence[Grade], patch: pytest.MonkeyPatch) -> list[Json]:
     """Return what a zoo says that has never seen the fault."""
     patch.setattr(diagnoses, "FAULTS", [f for f in FAULTS if f is not planted])
     return diagnose(grades)
@@ -97,8 +103,9 @@ def test_a_fault_is_named_and_where_it_is_unknown_no_other(
     if planted.name in SILENT:
         assert said == []
     elif planted.name not in TIES or said:
-        (line,) = said
-        assert f"a tracer that {planted.does} ({planted.name};" in line
+        [cause] = said[0]["explained"]
+        assert (cause["fault"], cause["does"]) == (planted.name, planted.does)
+        assert cause["rows"] + said[0]["unexplained"] == said[0]["failures"]
     if not said:
         assert without(planted, grades, monkeypatch) == []
 
@@ -106,8 +113,8 @@ def test_a_fault_is_named_and_where_it_is_unknown_no_other(
 @pytest.mark.parametrize("name", sorted(TIES))
 def test_a_fault_at_equal_ends_is_named_where_they_are_equal(name: str):
     planted = next(f for f in FAULTS if f.name == name)
-    (line,) = diagnose(graded(planted.make(), independently=False))
-    assert planted.does in line
+    [found] = diagnose(graded(planted.make(), independently=False))
+    assert [cause["fault"] for cause in found["explained"]] == [name]
 
 
 @pytest.mark.parametrize("planted", FAULTS[::6], ids=lambda f: f.name)
@@ -116,8 +123,8 @@ def test_a_fault_in_another_tracer_is_named_right_or_not_at_all(planted: Fault):
     tracer = planted.make()
     if not isinstance(tracer, Tracer) or tracer.wall is not crossed:
         pytest.skip("the wall, or all of it, is the fault's own")
-    for line in diagnose(graded(replace(tracer, wall=projected, scale=unscaled))):
-        assert planted.does in line
+    for found in diagnose(graded(replace(tracer, wall=projected, scale=unscaled))):
+        assert [cause["fault"] for cause in found["explained"]] == [planted.name]
 
 
 @pytest.mark.parametrize(

@@ -111,7 +111,7 @@ def test_the_first_of_the_expected_list_is_exact(mode: FromInside) -> None:
     grades = graded(lambda row: first(row.expected, mode), mode)
     judged = verdict(grades, "exact", "closed")
     assert judged.granted, judged.reasons
-    assert not any(g.faults or g.outside for g in grades)
+    assert not any(g.faults or g.beside for g in grades)
 
 
 def test_a_correct_first_has_a_backward_error_of_at_most_1() -> None:

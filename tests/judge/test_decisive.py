@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from raycert.cases.domain import Tolerance
 from raycert.cases.formats import BINARY32, BINARY64, FORMATS, Format
 from raycert.cases.levels import LEVELS
 from raycert.cases.model import (
@@ -231,14 +232,14 @@ def test_a_touch_where_something_moves_is_no_convention(fmt: Format) -> None:
     """At (0, 0, 1) the plane moves; and a tolerance moves it in the origin too."""
     ray = Ray((0, 0, 1), OUT)
     assert levels(HalfSpace((0, 0, 1), (0, 0, 1)), ray, fmt) == ALL
-    tolerant = Judge(FLOOR, Ray((0, 0, 0), OUT), fmt, tolerance=2.0**-9)
+    tolerant = Judge(FLOOR, Ray((0, 0, 0), OUT), fmt, tolerance=Tolerance(2.0**-9))
     assert decisive(tolerant) == ALL
 
 
 def test_a_tolerance_beyond_c_decides_nothing_that_moves() -> None:
     ray = Ray((-3, 0, 1), (1, 0, 0))
-    assert decisive(Judge(can(), ray, tolerance=0.125)) == ALL
-    assert decisive(Judge(can(), ray, tolerance=0.126)) == FINER
+    assert decisive(Judge(can(), ray, tolerance=Tolerance(0.125))) == ALL
+    assert decisive(Judge(can(), ray, tolerance=Tolerance(0.126))) == FINER
 
 
 def test_a_point_is_decisive_for_nothing_it_could_lose() -> None:

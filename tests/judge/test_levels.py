@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from mpmath import mp, mpf
 
 from raycert.cases.accept import malformed
+from raycert.cases.domain import Tolerance
 from raycert.cases.formats import BINARY32, BINARY64, Format
 from raycert.cases.levels import LEVELS
 from raycert.cases.model import (
@@ -374,7 +375,7 @@ def test_convex_means_no_union_and_no_difference(solid: Solid) -> None:
 
 @given(leaves, rays, st.sampled_from([0.125, 2.0**-30]))
 def test_a_declared_tolerance_forgives_that_much(leaf: Solid, ray: Ray, by: float) -> None:
-    strict, lax = Judge(leaf, ray, BINARY64), Judge(leaf, ray, BINARY64, "generic", by)
+    strict, lax = Judge(leaf, ray, BINARY64), Judge(leaf, ray, BINARY64, "generic", Tolerance(by))
     for answer in ([], [(0.0, 1.0)], strict.expected):
         assert lax.backward_error(answer, "strict") <= strict.backward_error(answer, "strict")
     inner, outer = (lax.moved(0, "strict", sigma) for sigma in (-1, 1))
@@ -385,6 +386,6 @@ def test_a_declared_tolerance_forgives_that_much(leaf: Solid, ray: Ray, by: floa
 def test_a_tolerance_by_hand() -> None:
     answer: Sequence[tuple[float, float]] = [(2.0625, 3.9375)]
     assert not Judge(CAN, ACROSS, BINARY64).holds("sound", answer)
-    assert Judge(CAN, ACROSS, BINARY64, "generic", 0.0625).holds("stable", answer)
-    assert not Judge(CAN, ACROSS, BINARY64, "generic", 0.06).holds("sound", answer)
+    assert Judge(CAN, ACROSS, BINARY64, "generic", Tolerance(0.0625)).holds("stable", answer)
+    assert not Judge(CAN, ACROSS, BINARY64, "generic", Tolerance(0.06)).holds("sound", answer)
     assert Fraction(0.0625) * 16 == 1

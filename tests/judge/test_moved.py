@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from raycert.cases.domain import Tolerance
 from raycert.cases.formats import BINARY32, BINARY64, Format
 from raycert.cases.model import (
     Cylinder,
@@ -25,11 +26,12 @@ from raycert.cases.model import (
     Vector,
 )
 from raycert.cases.model import leaves as leaves_of
+from raycert.cases.vectors import norm_up
 from raycert.oracle.exact.grid import dyadics
 from raycert.oracle.exact.intervals import Intervals, contains
 from raycert.oracle.exact.trace import trace
 from raycert.oracle.judge.levels import LIMIT
-from raycert.oracle.judge.moved import LAST_STEP, REFINE, Movable, Shift, Step, moved_leaf, norm
+from raycert.oracle.judge.moved import LAST_STEP, REFINE, Movable, Shift, Step, moved_leaf
 from shared.definition import at, dot, exact, inside, member, minus, on_a_surface, samples
 from shared.grid import leaves, rays, solids
 
@@ -137,7 +139,7 @@ def test_a_moved_leaf_is_what_its_definition_says(
     more: set[Fraction],
 ) -> None:
     k = Step.at(step)
-    moved = Movable(leaf, ray, fmt, tolerance).by_k(k, measure, sigma)  # type: ignore[arg-type]
+    moved = Movable(leaf, ray, fmt, Tolerance(tolerance)).by_k(k, measure, sigma)  # type: ignore[arg-type]
     ku = Fraction(float(k)) * unit(fmt)
     for t in samples(moved) | samples(trace(leaf, ray).intervals) | more:
         found = truth(leaf, ray, t, ku, measure, sigma, Fraction(tolerance))
@@ -229,7 +231,7 @@ def test_the_constant_move_is_an_eighth_of_the_leaf(leaf: Solid, ray: Ray, sigma
 def test_norm_is_the_norm_of_the_contract(x: Vector) -> None:
     bits, integers = dyadics(x, REFINE)
     a, b, c = (integers[number] for number in x)
-    assert Fraction(norm((a, b, c)), 2**bits) == big_norm(exact(x))
+    assert Fraction(norm_up((a, b, c)), 2**bits) == big_norm(exact(x))
 
 
 @given(st.tuples(floats, floats, floats))

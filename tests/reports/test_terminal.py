@@ -52,5 +52,5 @@ def test_a_few_failing_rows_are_printed_and_the_others_counted() -> None:
     text = printed(made_up.bad())
     assert [f["id"] for f in found if f"\n{f['id']}\n" in text] == [f["id"] for f in found[:SHOWN]]
     assert f"and {len(found) - SHOWN} more rows" in text
-    assert "likely fault: likely this" in text
+    assert "does likely this" in text
     assert "note: a note" in text

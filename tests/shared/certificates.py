@@ -25,6 +25,23 @@ HOSTILE = (
     "\ud800 \x1b[31m ``` | ]]> [/red] e" + "\u0301" * 50
 )
 STEP = 60
+LIKELY = [
+    {
+        "solid": "cylinder",
+        "level": "sound",
+        "failures": 9,
+        "explained": [
+            {
+                "fault": "some-fault",
+                "does": "does likely this",
+                "origin": "somewhere",
+                "rows": 8,
+                "first": "perpendicular/any",
+            }
+        ],
+        "unexplained": 1,
+    }
+]
 
 
 @cache
@@ -88,7 +105,7 @@ def made(
     rows = sample() if rows is None else rows
     grades: list[Grade] = [grade(row, answer(row, n), hello) for n, row in enumerate(rows)]
     asked = Request(level, "closed", ("--", "./tracer"), selection)
-    ran = Ran(1, ("a note",), 1.25, interrupted, "2026-01-02T03:04:05+00:00", ("likely this",))
+    ran = Ran(1, ("a note",), 1.25, interrupted, "2026-01-02T03:04:05+00:00", {"likely": LIKELY})
     judged = verdict(grades, level, "closed")
     form = certificate(
         asked, hello, golden(), grades, Left((), 0), ran, judged, environment(), **more

@@ -18,6 +18,7 @@ from click.testing import CliRunner
 
 from raycert.cases.accept import Numbers
 from raycert.cases.corpus import GOLDEN
+from raycert.cases.domain import Tolerance
 from raycert.cases.formats import BINARY32, FORMATS
 from raycert.cases.levels import LEVELS
 from raycert.cases.protocol import TOUCHES, Hello, Reply, convention, encode, write_hello
@@ -390,7 +391,9 @@ def test_answers_that_are_none_are_refused_with_their_place(
     assert FAMILY in complaint
 
 
-@pytest.mark.parametrize("declared", [Hello("x", tolerance=1e-9), Hello("x", answers="any")])
+@pytest.mark.parametrize(
+    "declared", [Hello("x", tolerance=Tolerance(1e-9)), Hello("x", answers="any")]
+)
 def test_what_the_rows_have_no_lists_for_is_not_judged(readers: Readers, declared: Hello) -> None:
     text, _ = right()
     status, complaint = readers.judge(text, write_hello(declared))[1]
