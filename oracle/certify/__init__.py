@@ -6,6 +6,7 @@ grading      one row, one outcome: the levels it passes, and how far off the ans
 measured     the errors that are shown of every failure, on all cores where they are many
 verdict      levels by type of solid, conventions, and whether what was asked is granted
 certificate  all of it as JSON, with the case table and the worst answers
+again        failing rows asked again, each alone: whether an answer depends on those before
 diagnosis    what the failures have in common, and where the answers belie the hello
 known        a file of known failures, and how a run compares with it
 environment  the tool to the byte, versions and machine

@@ -26,6 +26,7 @@ from raycert.cases.model import Tree
 from raycert.cases.protocol import DEGENERATE, Hello
 from raycert.cases.row import End, GoldenRow
 from raycert.cases.table import PROBLEM_1, PROBLEM_2, Row, cells, pairs_of_rows
+from raycert.oracle.certify.again import Again
 from raycert.oracle.certify.grading import Grade, Place, by_convention, usual
 from raycert.oracle.certify.selection import Left
 from raycert.oracle.certify.verdict import (
@@ -48,8 +49,6 @@ Repeat = Callable[[str], str]
 CERTIFICATE_VERSION = 2
 DIFFERENCES = ("expected", "new", "unexpected_passes", "unmatched")
 """What a file of known failures may have to say of a run."""
-NOT_ASKED_AGAIN = {"asked_again": 0, "then_passed": []}
-"""What is said of state where no row was asked again."""
 MOST, MOST_PASSED = 12, 4
 """How many worst cases are shown: of failures, and where nothing failed."""
 
@@ -140,7 +139,7 @@ def _seen(ran: Ran) -> Json:
     """Return how the run went, and what the failures have in common."""
     run = {**asdict(replace(ran, diagnosis={})), "notes": list(ran.notes)}
     run.pop("diagnosis")
-    return {"run": run, "likely": [], "easy": [], "state": NOT_ASKED_AGAIN, **ran.diagnosis}
+    return {"run": run, "likely": [], "easy": [], "state": Again().form(), **ran.diagnosis}
 
 
 def _question(request: Request, hello: Hello, corpus: Corpus, shard: str | None) -> Json:

@@ -18,6 +18,7 @@ from raycert.cases.interrupts import interruptible
 from raycert.cases.levels import Level
 from raycert.cases.protocol import Hello
 from raycert.cases.row import GoldenRow
+from raycert.oracle.certify.again import MOST, PART, Again, ask_again
 from raycert.oracle.certify.certificate import Json, Ran, Request, certificate
 from raycert.oracle.certify.diagnosis import contradictions, diagnose
 from raycert.oracle.certify.environment import environment
@@ -26,9 +27,9 @@ from raycert.oracle.certify.known import Expectations, Matched, failed_level, ma
 from raycert.oracle.certify.measured import measured
 from raycert.oracle.certify.selection import Left, Selection, able, select
 from raycert.oracle.certify.verdict import Verdict, verdict
-from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target
+from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target, Unusable
 from raycert.oracle.client.process import Failure
-from raycert.oracle.client.replay import Changed, Interrupted, greet
+from raycert.oracle.client.replay import Changed, Interrupted, alone, greet
 from raycert.oracle.client.replay import run as ask
 from raycert.oracle.client.smoke import adapter_faults, easy
 from raycert.oracle.client.smoke import limits as soon
@@ -190,16 +191,21 @@ def conduct(prepared: Prepared, watch: Watch | None = None) -> Result:
         if not answers.stopped:
             answers.add(prepared.rows[start : start + size])
     grades = tuple(answers.grades)
-    said = dict.fromkeys((*answers.notes, *contradictions(prepared.hello, grades)))
+    again = answers.ask_again((time.monotonic() - clock) * PART)
+    said = dict.fromkeys((*answers.notes, *again.notes, *contradictions(prepared.hello, grades)))
     ran = Ran(
         restarts=answers.restarts,
         notes=tuple(said),
         seconds=round(time.monotonic() - clock, 3),
         interrupted=answers.stopped,
         began=began,
-        diagnosis={"likely": diagnose(grades)} if any(g.faults for g in grades) else {},
+        diagnosis={
+            "likely": diagnose(grades) if any(g.faults for g in grades) else [],
+            "state": again.form(),
+        },
     )
     found = verdict(grades, plan.level, plan.convention)
+    found = replace(found, reasons=(*found.reasons, *again.reasons))
     return Result(prepared, grades, ran, found, answers.changed)
 
 
@@ -248,6 +254,25 @@ class _Answers:
             self.stopped = rest > 0
             note = f"ended early, at {first}, the first row that fails: {rest} not asked"
             self.notes.append(note)
+
+    def ask_again(self, seconds: float) -> Again:
+        """Ask failing rows again, each alone; nothing where a lone row was asked, or it ended."""
+        plan, hello, grades = self._prepared.plan, self._prepared.hello, self.grades
+        if self.stopped or len(grades) < 2:
+            return Again()
+        with self._watch.counting("asking again", MOST) as advance:
+
+            def ask_alone(question: Question) -> Outcome:
+                return alone(plan.target, question, plan.limits, hello)
+
+            try:
+                with interruptible():
+                    return ask_again(grades, plan.level, hello, ask_alone, seconds, advance)
+            except KeyboardInterrupt:
+                self.stopped = True
+            except Unusable as error:
+                self.notes.append(f"no failing row could be asked again: {error}")
+        return Again()
 
     def _ask(self, rows: Sequence[GoldenRow]) -> dict[str, Outcome]:
         plan, hello, done = self._prepared.plan, self._prepared.hello, 0

@@ -125,6 +125,21 @@ def run(
     return replay.result()
 
 
+def alone(
+    target: Sequence[str] | Target, question: Question, limits: Limits, hello: Hello
+) -> Outcome:
+    """Return what a fresh process answers to one question. Raises `Unusable`, `Changed`."""
+    dialogue = open_again(_target(target), limits, fresh_ids(), hello)
+    try:
+        dialogue.ask([question])
+        [(_, outcome)] = dialogue.answers()
+        return outcome
+    except Broken as broken:
+        return broken.failure
+    finally:
+        dialogue.kill()
+
+
 class GivenUp(Exception):
     """It is no use to go on."""
 
