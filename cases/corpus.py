@@ -186,10 +186,14 @@ def read_corpus(
             if name != f"{precision}/{row.family}.jsonl":
                 raise BadFile(f"{path}: the id {row.id} is of another family")
             rows[row.id] = row
-    digest = hashlib.sha256(read_file(folder / MANIFEST, regular=True)).hexdigest()
     read = tuple(row for row in rows.values() if isinstance(row, GoldenRow))
     unread = tuple(row for row in rows.values() if isinstance(row, Heading))
-    return Corpus(read, precision, form["corpus"], digest, unread)
+    return Corpus(read, precision, form["corpus"], digest(folder), unread)
+
+
+def digest(folder: Path) -> str:
+    """Return the SHA-256 of a manifest, and so of every file. Raises `BadFile`."""
+    return hashlib.sha256(read_file(folder / MANIFEST, regular=True)).hexdigest()
 
 
 def write_whole(path: Path, data: bytes) -> None:

@@ -74,6 +74,10 @@ class Request:
         options = [*asked, *self.golden, *extra]
         return shlex.join(["raycert", "certify", *options, *self.command])
 
+    def whole(self) -> str:
+        """Return the command line of all that is asked: two runs with the same are the same run."""
+        return self.repeat(*self.fresh, *self.selection)
+
     def repeat_row(self, id: str) -> str:
         """Return the command line that asks one row again, drawn anew if it was."""
         return self.repeat(*(self.fresh if id.startswith("fresh-") else ()), "--id", id)
@@ -131,7 +135,7 @@ def certificate(
         **_results(request, hello, grades),
         "expectations": expectations,
         "standing": {"stress": None, "bench": None},
-        "reproduce": request.repeat(*request.fresh, *request.selection),
+        "reproduce": request.whole(),
     }
 
 

@@ -83,6 +83,12 @@ class Plan:
     fresh: Fresh | None = None
     fail_fast: bool = False
 
+    def request(self, command: Sequence[str]) -> Request:
+        """Return what is asked; `command` are the words that name the target to a person."""
+        narrowed, drawn = self.selection.options(), self.fresh.options() if self.fresh else ()
+        other = () if self.golden == GOLDEN else ("--golden", str(self.golden))
+        return Request(self.level, self.convention, tuple(command), narrowed, drawn, other)
+
 
 @dataclass(frozen=True, slots=True)
 class Prepared:
@@ -133,11 +139,8 @@ class Result:
         """
         plan, prepared = self.prepared.plan, self.prepared
         shard, fresh = plan.selection.shard, plan.fresh
-        narrowed, drawn = plan.selection.options(), fresh.options() if fresh else ()
-        other = () if plan.golden == GOLDEN else ("--golden", str(plan.golden))
-        request = Request(plan.level, plan.convention, tuple(command), narrowed, drawn, other)
         return certificate(
-            request,
+            plan.request(command),
             prepared.hello,
             prepared.corpus,
             self.grades,

@@ -5,6 +5,7 @@ streams        standard streams that never fail a command
 options        the options that verbs share
 asking         a case by options, id or JSON
 measuring      what bench and stress share
+keeping        where a certificate goes, and what it may not take the place of
 scenes         what render and plan share
 certify        certify, report
 listing        list, show

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from raycert.cases.interrupts import held
+from raycert.oracle.commands.keeping import Place, check_distinct, check_record, place
 from raycert.oracle.commands.options import (
     FILE,
     FILE_OR_DASH,
@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from raycert.oracle.certify.run import Plan, Result
     from raycert.oracle.client.dialogue import Target
 
+PART = "no certificate, as this was a part of the rows: --out FILE writes what it found"
 NARROWED = ("solids", "tiers", "families", "ids", "smoke")
 REPORTS = {
     "html": "One page with pictures that needs no network.",
@@ -105,7 +106,10 @@ def report_options(function: Function) -> Function:
 @click.option("--expect", type=KNOWN_FILE, help="Known failures: a TOML file, with reasons.")
 @click.option("--write-expectations", "record", type=FILE, help="Write such a file.")
 @golden_option
-@click.option("--out", type=FILE, default="certificate.json", show_default=True)
+@click.option(
+    "--out", type=FILE, help="The certificate.  [certificate.json; of a part of the rows none]"
+)
+@click.option("--force", is_flag=True, help="Overwrite what is of another run, or no certificate.")
 @report_options
 @click.option("--stress", is_flag=True, help="Set its error against stiffness too (a minute).")
 @click.option("--bench", is_flag=True, help="Set its error against run time too.")
@@ -120,27 +124,38 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     from raycert.oracle.certify.known import write
     from raycert.oracle.reports.reading import verdict
 
+    plan, words = _plan(target, options), spelled(target)
+    kept = _place(plan, words, options)
     expected = _expectations(options["expect"])
     for line in expected.warnings if expected else ():
         say(f"raycert: {options['expect']}: {line}", err=True)
-    result = _run(_plan(target, options))
+    result = _run(plan)
     known = result.matched(expected).as_json(str(options["expect"])) if expected else None
-    form = result.form(spelled(target), known)
+    form = result.form(words, known)
     asked = {} if result.ran.interrupted else options
     form["standing"] = _standing(result.prepared.hello.name, aim(target), asked)
     _print(form)
-    out, data = str(options["out"]), json.dumps(form, indent=1, allow_nan=False) + "\n"
-    written = [out] if write_out(out, data) else []
+    written = [str(kept.out)] if kept and kept.write(form) else []
     if options["record"]:
         write_out(options["record"], write(result.recorded(expected)))
     written += write_reports(form, _wanted(options))
     with writing("standard output"):
-        say(f"certificate: {' '.join(written)}")
+        say(f"certificate: {' '.join(written)}" if kept or written else PART)
     if result.changed:
         stop(result.changed)
     if not form["tested"] or form["reasons"] == ["nothing was tested"]:
         raise SystemExit(3)
     raise SystemExit(0 if verdict(form).good else 1)
+
+
+def _place(plan: Plan, words: tuple[str, ...], options: dict[str, Any]) -> Place | None:
+    """Return where the certificate goes; refuse what would be lost by an output."""
+    found = place(plan, words, options)
+    named = {f"--{form}": options[form] for form in REPORTS}
+    named |= {"--out": found and found.out, "--write-expectations": options["record"]}
+    check_distinct(named)
+    check_record(options)
+    return found
 
 
 def _plan(target: tuple[str, ...], options: dict[str, Any]) -> Plan:
@@ -260,6 +275,7 @@ def report(certificate: Path, **options: str | None) -> None:
 
     reports = _wanted(options)
     form = read_as(certificate, read_file(certificate), check)
+    check_distinct({"CERTIFICATE": certificate} | {f"--{x}": file for x, file in reports.items()})
     if reports:
         write_reports(form, reports)
     else:

@@ -59,7 +59,7 @@ Examples:
   raycert hunt my_tracer:intersect                 a minute, level stable
   raycert hunt --time 600 --workers 4 -- ./my_tracer
   raycert hunt ./tracer.so --cases 20000 --seed 7  the same again finds the same
-  raycert certify --golden hunted --level stable my_tracer:intersect
+  raycert certify --golden hunted --out replay.json my_tracer:intersect
                                                    replay what was found
   dask scheduler & dask worker HOST:8786 --nthreads 1 &
   raycert hunt my_tracer:intersect --time 3600 --scheduler tcp://HOST:8786
@@ -219,8 +219,9 @@ def _print(
             say("  It did not come again in a new process, so no row was written.")
     say(f"{status(found)}, {found.seconds:.0f} s, seed {options['seed']}" + _end(found))
     if any(finding.repeats for finding in findings.values()):
-        replay = ("raycert", "certify", "--golden", str(options["out"]), "--level")
-        say("replay: " + shlex.join((*replay, options["level"], *spelled(target))))
+        out = options["out"]
+        replay = ("--golden", str(out), "--level", options["level"], "--out", f"{out}/replay.json")
+        say("replay: " + shlex.join(("raycert", "certify", *replay, *spelled(target))))
 
 
 def _end(found: Hunt) -> str:

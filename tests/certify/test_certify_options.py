@@ -21,7 +21,8 @@ def importable(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
 
 
 def run(*options: str) -> Result:
-    return CliRunner().invoke(main, ["certify", *options])
+    words = ["certify", "--out", "certificate.json", "--force", *options]
+    return CliRunner().invoke(main, words)
 
 
 def form(name: str = "certificate.json") -> dict[str, Any]:
