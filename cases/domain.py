@@ -8,7 +8,8 @@ Of a case there are five quantities, each exact, over all leaves of the solid th
     offset      the largest coordinate of p, q or center over the smallest size of the leaf
     aspect      the largest size of the leaf over its smallest
 
-with N the norm rounded up (`vectors.norm_up`). What is zero is no size and no direction: it is a
+with N the norm rounded up (`vectors.norm_up`), and exact where it is rational, so that a bound of 1
+holds a unit vector along an axis. What is zero is no size and no direction: it is a
 degenerate input, declared by its name. A half-space has no size, so nothing is in proportion to it.
 """
 
@@ -17,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from fractions import Fraction
-from math import inf
+from math import inf, isqrt
 from typing import Any, NamedTuple
 
 from raycert.cases.model import (
@@ -33,7 +34,7 @@ from raycert.cases.model import (
     radius,
     real,
 )
-from raycert.cases.vectors import minus, norm_up
+from raycert.cases.vectors import dot, minus, norm_up, times
 
 Bound = float | None
 Span = tuple[Bound, Bound]
@@ -94,15 +95,20 @@ def _sizes(leaf: Leaf) -> Iterator[Fraction]:
 
 
 def _length(x: tuple[float, float, float], y: tuple[float, float, float] = (0, 0, 0)) -> Fraction:
-    """Return N(x - y), exactly."""
+    """Return |x - y|, exactly where it is rational, else N(x - y)."""
     ratios = [number.as_integer_ratio() for number in (*map(float, x), *map(float, y))]
-    unit = max(bottom for _, bottom in ratios) << UNITS
+    unit = max(bottom for _, bottom in ratios)
     a, b, c, d, e, f = (top * (unit // bottom) for top, bottom in ratios)
-    return Fraction(norm_up(minus((a, b, c), (d, e, f))), unit)
+    apart = minus((a, b, c), (d, e, f))
+    square = dot(apart, apart)
+    length = isqrt(square)
+    if length * length == square:
+        return Fraction(length, unit)
+    return Fraction(norm_up(times(1 << UNITS, apart)), unit << UNITS)
 
 
 UNITS = 64
-"""Bits below the coarsest grid of the numbers, on which N is an integer."""
+"""Bits below the grid of the numbers, on which N is an integer."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,19 +186,22 @@ def _words(name: str, low: Bound, high: Bound) -> str:
 def short(number: float | None) -> str:
     """Return a number as short as it can be read back.
 
-    >>> short(1e6), short(0.25), short(2.0**40), short(1536.0)
-    ('1e6', '0.25', '2^40', '1536')
+    >>> short(1e6), short(0.25), short(2.0**40), short(1536.0), short(2.1e7), short(None)
+    ('1e6', '0.25', '2^40', '1536', '2.1e7', 'any')
     """
-    assert number is not None
-    mantissa, exponent = number.as_integer_ratio()
-    ten = f"{number:e}".partition("e")
-    if number == float(f"1e{int(ten[2])}") and abs(int(ten[2])) > 2:
-        return f"1e{int(ten[2])}"
-    power = (mantissa.bit_length() - 1) - (exponent.bit_length() - 1)
-    if number == 2.0**power and abs(power) > 10:
-        return f"2^{power}"
-    plain = f"{number:g}"
-    return plain if float(plain) == number else repr(number)
+    if number is None:
+        return "any"
+    exact = Fraction(number)
+    two = exact.numerator.bit_length() - exact.denominator.bit_length()
+    for digits in range(17):
+        form, _, power = f"{number:.{digits}e}".partition("e")
+        if float(f"{form}e{power}") == number:
+            break
+    if digits and number == 2.0**two and abs(two) > 10:
+        return f"2^{two}"
+    if -3 < int(power) < 4:
+        return repr(number).removesuffix(".0")
+    return f"{form}e{int(power)}"
 
 
 def read_domain(form: object, path: str = "domain") -> Domain:

@@ -23,6 +23,7 @@ from functools import cache
 from math import inf, isinf, isnan
 from typing import Any, BinaryIO, Literal, TypeVar
 
+from raycert.cases.degenerate import DEGENERACIES
 from raycert.cases.domain import EVERYWHERE, EXACT, Domain, Tolerance, read_domain, read_tolerance
 from raycert.cases.formats import BINARY64, FORMATS, SPELLINGS, Format, Spelling, parse, spell
 from raycert.cases.forms import question, read_ray, read_solid
@@ -39,8 +40,6 @@ CHOICES: dict[str, Iterable[str]] = {
 """The fields of a hello that are one of some words."""
 TOUCHES = ("tangent", "wall", "cap", "rim", "start")
 """The kinds of touch that a convention may keep or drop."""
-DEGENERATE = ("zero_direction", "zero_radius", "flat_box")
-"""The kinds of degenerate input that an implementation may declare to answer."""
 
 Pairs = tuple[tuple[float, float], ...]
 Intersect = Callable[[Solid, Ray], Iterable[tuple[float, float]]]
@@ -217,9 +216,9 @@ def _solids(value: object) -> tuple[str, ...]:
 
 
 def _degenerate(value: object) -> tuple[str, ...]:
-    if not isinstance(value, list | tuple) or not all(kind in DEGENERATE for kind in value):
-        raise Refused("degenerate", f"is not a list of {', '.join(DEGENERATE)}: {value!r:.40}")
-    return tuple(kind for kind in DEGENERATE if kind in value)
+    if not isinstance(value, list | tuple) or not all(kind in DEGENERACIES for kind in value):
+        raise Refused("degenerate", f"is not a list of {', '.join(DEGENERACIES)}: {value!r:.40}")
+    return tuple(kind for kind in DEGENERACIES if kind in value)
 
 
 def _infinity(value: object) -> float | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from importlib.metadata import PackageNotFoundError, version
 
+from raycert.cases.degenerate import DEGENERACIES
 from raycert.cases.protocol import Hello, serve
 from raycert.reference.tracer import intersect
 
@@ -11,9 +12,9 @@ from raycert.reference.tracer import intersect
 def hello() -> Hello:
     """Return what the tracer declares: every solid, binary64, `closed`."""
     try:
-        return Hello("raycert reference", version("raycert"))
+        return Hello("raycert reference", version("raycert"), degenerate=DEGENERACIES)
     except PackageNotFoundError:
-        return Hello("raycert reference")
+        return Hello("raycert reference", degenerate=DEGENERACIES)
 
 
 if __name__ == "__main__":

@@ -48,7 +48,7 @@ def home(case: Case) -> str | None:
     match degenerate(case.solid, case.ray):
         case ():
             return None
-        case ("zero-direction", *_):
+        case ("zero_direction", *_):
             return "csg-rest" if isinstance(case.solid, Tree) else "zero-direction"
     return "sphere-point" if isinstance(case.solid, Sphere) else "zero-radius"
 

@@ -4,6 +4,7 @@ run          from a plan to a result: greet, select, ask, grade
 selection    which rows are sent
 grading      one row, one outcome: the levels it passes, and how far off the answer is
 measured     the errors that are shown of every failure, on all cores where they are many
+widest       the widest domain in which a level would be granted
 verdict      levels by type of solid, conventions, and whether what was asked is granted
 certificate  all of it as JSON, with the case table and the worst answers
 again        failing rows asked again, each alone: whether an answer depends on those before

@@ -20,14 +20,15 @@ from typing import Any
 
 from raycert.cases.accept import Numbers
 from raycert.cases.corpus import FORMAT_VERSION, Corpus
+from raycert.cases.degenerate import DEGENERACIES
 from raycert.cases.forms import write_ray, write_solid
-from raycert.cases.levels import LEVELS, Level
+from raycert.cases.levels import LEVELS, Level, upto
 from raycert.cases.model import Tree
-from raycert.cases.protocol import DEGENERATE, Hello
+from raycert.cases.protocol import Hello
 from raycert.cases.row import End, GoldenRow
 from raycert.cases.table import PROBLEM_1, PROBLEM_2, Row, cells, pairs_of_rows
 from raycert.oracle.certify.again import Again
-from raycert.oracle.certify.grading import Grade, Place, by_convention, usual
+from raycert.oracle.certify.grading import Grade, by_convention, counting, undeclared, usual
 from raycert.oracle.certify.selection import Left
 from raycert.oracle.certify.verdict import (
     Group,
@@ -39,6 +40,7 @@ from raycert.oracle.certify.verdict import (
     gravest,
     window,
 )
+from raycert.oracle.certify.widest import measured_domain
 from raycert.oracle.judge.answer import First, YesNo
 from raycert.oracle.judge.levels import MEASURES
 from raycert.oracle.zoo.matrix import kind as how
@@ -168,7 +170,7 @@ def _results(request: Request, hello: Hello, grades: Sequence[Grade]) -> Json:
     level, repeat, groups = request.level, request.repeat_row, by_solid(grades)
     return {
         "not_decisive": {name: _not_decisive(usual(grades), name) for name in MEASURES},
-        "solids": {group.name: _solid(group) for group in groups},
+        "solids": {group.name: _solid(group, hello) for group in groups},
         "families": [
             _family(family, solid.name) for solid in groups for family in by_family(solid.grades)
         ],
@@ -185,7 +187,7 @@ def _not_decisive(grades: Sequence[Grade], level: Level) -> Json:
     }
 
 
-def _solid(group: Group) -> Json:
+def _solid(group: Group, hello: Hello) -> Json:
     touches = Touches.of(group.grades)
     return {
         "level": group.granted(),
@@ -199,19 +201,51 @@ def _solid(group: Group) -> Json:
             }
             for level in LEVELS
         },
-        "outside": {level: _fares("right", _out(group, "outside"), level) for level in MEASURES},
-        "degenerate": {
-            kind: _fares("answered", of_kind, "sound")
-            for kind in DEGENERATE
-            if (of_kind := [g for g in _out(group, "degenerate") if kind in g.degenerate])
+        **_apart(group, hello),
+        "measured": {
+            level: _measured(group, level) for level in MEASURES if not group.tally(level).granted
         },
-        "measured": {level: None for level in MEASURES if not group.tally(level).granted},
     }
 
 
-def _out(group: Group, place: Place) -> list[Grade]:
-    """Return the grades of a place that is not the usual one; those of the range tier left out."""
-    return [g for g in group.grades if g.place == place and g.row.tier != "range"]
+def _apart(group: Group, hello: Hello) -> Json:
+    """Return how the rows fared that count for no level: outside the domain, and degenerate."""
+    outside, degenerate = (counting(group.grades, place) for place in ("outside", "degenerate"))
+    kinds = {
+        kind: [g for g in degenerate if kind in undeclared(g.row, hello)] for kind in DEGENERACIES
+    }
+    return {
+        "outside": {level: _fares("right", outside, level) for level in MEASURES},
+        "degenerate": {
+            kind: _fares("answered", some, "sound") for kind, some in kinds.items() if some
+        },
+    }
+
+
+def _measured(group: Group, level: Level) -> Json | None:
+    """Return the measured domain of a level that is not granted."""
+    found = measured_domain(group.grades, level)
+    if found is None:
+        return None
+    domain, failed = found.domain, found.ordinary
+    return {
+        "domain": domain and domain.form(),
+        "words": domain.words() if domain else "",
+        "rows": found.rows,
+        "left": found.left,
+        "edges": [
+            {
+                "quantity": edge.at.quantity,
+                "side": edge.at.name,
+                "bound": edge.bound,
+                "row": edge.grade.row.id,
+                "fault": next(filter(None, map(edge.grade.fault, upto(level)))),
+            }
+            for edge in found.edges
+        ],
+        "ordinary": {"failed": len(failed), "rows": [g.row.id for g in failed[:5]]},
+        "exhaustive": found.exhaustive,
+    }
 
 
 def _fares(right: str, grades: Sequence[Grade], level: Level) -> Json:

@@ -13,6 +13,7 @@ from math import inf
 from typing import Literal
 
 from raycert.cases.accept import Accept, Numbers
+from raycert.cases.degenerate import degenerate
 from raycert.cases.domain import quantities
 from raycert.cases.levels import LEVELS, Level
 from raycert.cases.protocol import Hello, Reply, convention
@@ -51,7 +52,6 @@ class Grade:
     beside: Mapping[str, str] = field(default_factory=dict)
     place: Place = "inside"
     refused: bool = False
-    degenerate: tuple[str, ...] = ()
 
     @property
     def answer(self) -> Numbers | None:
@@ -123,9 +123,14 @@ def inside(grades: Iterable[Grade]) -> list[Grade]:
     return [g for g in grades if g.place == "inside"]
 
 
+def counting(grades: Iterable[Grade], *places: Place) -> list[Grade]:
+    """Return the grades of these places; those of the range tier are part of no level."""
+    return [g for g in grades if g.place in places and g.row.tier != "range"]
+
+
 def usual(grades: Iterable[Grade]) -> list[Grade]:
-    """Return the grades that levels are about: inside, and not of the range tier."""
-    return [g for g in inside(grades) if g.row.tier != "range"]
+    """Return the grades that levels are about."""
+    return counting(grades, "inside")
 
 
 def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
@@ -150,8 +155,16 @@ def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
     return Grade(row, said, faults, judge, decides, beside, place)
 
 
+def undeclared(row: GoldenRow, hello: Hello) -> tuple[str, ...]:
+    """Return the kinds of degenerate input that a row is of, and that are not declared."""
+    kinds = degenerate(row.solid, row.ray)
+    return tuple(kind for kind in kinds if kind not in hello.degenerate)
+
+
 def place_of(row: GoldenRow, hello: Hello) -> Place:
     """Return where a row lies for what an implementation declares."""
+    if undeclared(row, hello):
+        return "degenerate"
     if hello.domain and not hello.domain.holds(quantities(row.solid, row.ray)):
         return "outside"
     return "inside"

@@ -88,8 +88,8 @@ def open_again(target: Target, limits: Limits, ids: Iterator[str], first: Hello 
 
 def _differing(hello: Hello, other: Hello) -> str:
     """Return the fields of a hello that another has not so, as JSON."""
-    fields = {name: getattr(hello, name) for name in Hello.__slots__}
-    return cut(json.dumps({k: x for k, x in fields.items() if x != getattr(other, k)}), 300)
+    fields, others = hello.form(), other.form()
+    return cut(json.dumps({name: x for name, x in fields.items() if x != others[name]}), 300)
 
 
 def _target(target: Sequence[str] | Target) -> Target:

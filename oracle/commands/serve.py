@@ -44,6 +44,7 @@ def _serve_oracle(precision: str, numbers: Any) -> None:
     import sys
     from itertools import takewhile
 
+    from raycert.cases.degenerate import DEGENERACIES
     from raycert.cases.formats import FORMATS
     from raycert.cases.protocol import Hello, serve
     from raycert.oracle.exact.intervals import expected
@@ -53,4 +54,5 @@ def _serve_oracle(precision: str, numbers: Any) -> None:
         return expected(trace(solid, ray).intervals, FORMATS[precision])[1]
 
     heard = takewhile(lambda _: 1 not in streams.GONE, sys.stdin.buffer)
-    serve(intersect, Hello("raycert oracle", precision=precision, numbers=numbers), heard)
+    hello = Hello("raycert oracle", precision=precision, numbers=numbers, degenerate=DEGENERACIES)
+    serve(intersect, hello, heard)
