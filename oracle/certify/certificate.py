@@ -235,8 +235,8 @@ def _measured(group: Group, level: Level) -> Json | None:
         "left": found.left,
         "edges": [
             {
-                "quantity": edge.at.quantity,
-                "side": edge.at.name,
+                "quantity": edge.flank.quantity,
+                "side": edge.flank.name,
                 "bound": edge.bound,
                 "row": edge.grade.row.id,
                 "fault": next(filter(None, map(edge.grade.fault, upto(level)))),

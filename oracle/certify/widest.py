@@ -42,7 +42,7 @@ have no value of exactly 1 in common, and whoever fails at 2 or at 50 sizes has 
 limit."""
 
 
-class Bounded(NamedTuple):
+class Flank(NamedTuple):
     """A quantity on the side on which it is bounded."""
 
     quantity: str
@@ -59,23 +59,25 @@ class Bounded(NamedTuple):
         return -low if self.low else high
 
 
-WAYS = (
-    *(Bounded(name, low) for name in PAIRS for low in (True, False)),
-    *(Bounded(name, False) for name in QUANTITIES if name not in PAIRS),
+FLANKS = (
+    *(Flank(name, low) for name in PAIRS for low in (True, False)),
+    *(Flank(name, False) for name in QUANTITIES if name not in PAIRS),
 )
 Point = tuple[float, ...]
 """How far out a case is on each side: a number that grows outward, of low sides the negative one;
 -infinity where it has no such quantity."""
 Cuts = tuple[float, ...]
 """For each side the least that is shut out; infinity for no bound."""
-WHOLE: Cuts = (inf,) * len(WAYS)
+WHOLE: Cuts = (inf,) * len(FLANKS)
 
 
 def point(grade: Grade) -> Point:
     spans = quantities(grade.row.solid, grade.row.ray).spans()
     return tuple(
-        _outward(spans[way.quantity][not way.low], way.low) if way.quantity in spans else -inf
-        for way in WAYS
+        _outward(spans[flank.quantity][not flank.low], flank.low)
+        if flank.quantity in spans
+        else -inf
+        for flank in FLANKS
     )
 
 
@@ -92,7 +94,7 @@ def _outward(x: Fraction, low: bool) -> float:
 class Edge:
     """A bound, and the first row that fails beyond it and within all the others."""
 
-    at: Bounded
+    flank: Flank
     bound: float
     grade: Grade
 
@@ -131,8 +133,8 @@ def measured_domain(grades: Iterable[Grade], level: Level) -> Measured | None:
         return None
     bounds = [bound(i, cut, rows) for i, cut in enumerate(cuts)]
     edges = [
-        Edge(WAYS[i], abs(bounds[i]), min(alone, key=lambda row: row.at[i]).grade)
-        for i in range(len(WAYS))
+        Edge(FLANKS[i], abs(bounds[i]), min(alone, key=lambda row: row.at[i]).grade)
+        for i in range(len(FLANKS))
         if (alone := [row for row in failing if row.beyond(cuts) == [i]])
     ]
     left = len(rows) - len(kept)
@@ -156,7 +158,7 @@ class Row(NamedTuple):
     @property
     def ways(self) -> list[int]:
         """Return the sides on which it can be shut out."""
-        return [i for i, way in enumerate(WAYS) if self.at[i] > way.ordinary]
+        return [i for i, flank in enumerate(FLANKS) if self.at[i] > flank.ordinary]
 
     def beyond(self, cuts: Cuts) -> list[int]:
         """Return the sides on which it is shut out."""
@@ -209,7 +211,7 @@ class Loss:
 def minimal(failing: Sequence[Row]) -> list[Row]:
     """Return the rows with the fewest ways first; none is at least as far out as another in all."""
     found: list[tuple[Row, dict[int, float]]] = []
-    for row in sorted(failing, key=lambda row: sum(map(_out, row.at, range(len(WAYS))))):
+    for row in sorted(failing, key=lambda row: sum(map(_out, row.at, range(len(FLANKS))))):
         own = {i: row.at[i] for i in row.ways}
         if not any(all(own.get(i, -inf) >= x for i, x in other.items()) for _, other in found):
             found.append((row, own))
@@ -230,7 +232,7 @@ def _width(cuts: Cuts) -> float:
 
 def _out(x: float, i: int) -> float:
     """Return how many times 2 a number is beyond what is ordinary on a side, 0 within."""
-    ordinary = WAYS[i].ordinary
+    ordinary = FLANKS[i].ordinary
     if x <= ordinary:
         return 0.0
     return FREE if x == inf or not x else abs(log2(abs(x)) - log2(abs(ordinary)))
@@ -248,7 +250,7 @@ def bound(i: int, cut: float, rows: Iterable[Row]) -> float:
     """
     if cut == inf:
         return inf
-    last = max([row.at[i] for row in rows if row.at[i] < cut] + [WAYS[i].ordinary])
+    last = max([row.at[i] for row in rows if row.at[i] < cut] + [FLANKS[i].ordinary])
     clear = cut - abs(cut) * 2.0 ** (2 - BITS)
     for base in (10, 2):
         sign = 1 if cut > 0 else -1
@@ -273,7 +275,7 @@ def _decimal(x: float, digits: int) -> float:
 def _domain(bounds: Sequence[float]) -> Domain:
     """Return the domain of the bounds of all sides."""
     found: dict[str, list[float | None]] = {}
-    for way, x in zip(WAYS, bounds, strict=True):
-        found.setdefault(way.quantity, []).append(None if x == inf else abs(x))
+    for flank, x in zip(FLANKS, bounds, strict=True):
+        found.setdefault(flank.quantity, []).append(None if x == inf else abs(x))
     pairs: dict[str, Any] = {name: tuple(x) if len(x) > 1 else x[0] for name, x in found.items()}
     return Domain(**pairs)

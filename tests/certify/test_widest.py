@@ -22,8 +22,8 @@ from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import Grade, grade, place_of
 from raycert.oracle.certify.verdict import Group, by_solid
 from raycert.oracle.certify.widest import (
+    FLANKS,
     ORDINARY,
-    WAYS,
     WHOLE,
     Row,
     best,
@@ -101,7 +101,7 @@ def test_a_run_with_the_measured_domain_is_granted_and_a_wider_one_is_not(
 
 def widened(domain: Domain, edge: Any, grades: tuple[Grade, ...]) -> Domain:
     """Return the domain with one bound at the next row's value."""
-    name, low = edge.at.quantity, edge.way.low
+    name, low = edge.flank.quantity, edge.flank.low
     spans = [quantities(g.row.solid, g.row.ray).spans() for g in grades if g.row.tier != "range"]
     values = [s[name][not low] for s in spans if name in s]
     beyond = [x for x in values if (x < edge.bound if low else x > edge.bound)]
@@ -151,7 +151,7 @@ POINTS = st.tuples(COORDINATES, COORDINATES, COORDINATES)
 def as_row(at: tuple[float, ...]) -> Row:
     """Return a row that lies so many steps out on distance, offset and aspect."""
     none: Any = None
-    ordinary = tuple(way.ordinary for way in WAYS[:4])
+    ordinary = tuple(flank.ordinary for flank in FLANKS[:4])
     return Row(none, (*ordinary, *(64.0 * 2.0**x for x in at)))
 
 
