@@ -2,6 +2,8 @@
 
     module:function   a Python callable, `intersect(solid, ray) -> pairs` with the objects of
                       raycert.cases.model, such as reference.tracer:intersect
+    dir/tracer.py:function
+                      the same in a file, of any name, wherever it lies
     ./tracer.so       a shared library (.so, .dylib, .dll) with the C signatures of raycert.h
     anything else     a program that speaks the line protocol
 
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
     from raycert.oracle.client.worker import Loaded
 
 LIBRARIES = (".so", ".dylib", ".dll")
-CALLABLE = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
+CALLABLE = re.compile(r"([^\W\d]\w*(\.[^\W\d]\w*)*|.+\.py):[^\W\d]\w*(\.[^\W\d]\w*)*")
 
 
 def target(words: Sequence[str]) -> Target:

@@ -36,7 +36,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import partial
 from importlib.machinery import PathFinder
-from importlib.util import module_from_spec
+from importlib.util import module_from_spec, spec_from_file_location
 from itertools import islice
 from pathlib import Path
 from types import ModuleType
@@ -166,12 +166,13 @@ class Loaded:
 def load_callable(spec: str) -> Loaded:
     """Load `module:function`, of the current directory where it is there. Raises `CannotLoad`.
 
+    The module may be the path of a file, `submissions/a-b.py:function`.
     A dict `hello` that the function or else its module has declares it, with the fields of the
     protocol's hello; where there is none, it is a closed binary64 tracer of every solid.
     """
-    module_name, _, path = spec.partition(":")
+    module_name, _, path = spec.rpartition(":")
     try:
-        module = _module(module_name)
+        module = _of_file(module_name) if module_name.endswith(".py") else _module(module_name)
     except (Exception, SystemExit) as error:
         raise CannotLoad(
             f"cannot import {module_name!r}: {described(error)}. The target is MODULE:FUNCTION, "
@@ -209,6 +210,18 @@ def _module(name: str) -> ModuleType:
     if inner:
         raise ImportError(f"{top!r} is the name of a module that is loaded already ({taken!r})")
     module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def _of_file(path: str) -> ModuleType:
+    """Load a file as a module: what lies beside it is found, as a script would find it."""
+    sys.path.insert(0, str(Path(path).resolve().parent))
+    spec = spec_from_file_location(Path(path).stem, path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = module_from_spec(spec)
+    sys.modules.setdefault(spec.name, module)
     spec.loader.exec_module(module)
     return module
 

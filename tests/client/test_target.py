@@ -66,6 +66,25 @@ def test_the_words_decide(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> No
         assert target(words) == Command(tuple(words))
 
 
+def test_a_function_of_a_file_of_any_name(tmp_path: Path) -> None:
+    """It finds what lies beside it, also what is called as a module of ours or a loaded one."""
+    folder = tmp_path / "M\u00fcller, Anna: 2"
+    folder.mkdir()
+    (folder / "vectors.py").write_text("beside = True\n")
+    text = "import vectors\nassert vectors.beside\nfrom planted import steady\n"
+    for name in ("tracer-v2.py", "json.py"):
+        (folder / name).write_text(f"import sys; sys.path.append({str(CLIENTS)!r})\n{text}")
+        word = f"{folder / name}:steady"
+        assert target([word]) == InProcess("callable", word)
+        result = run(target([word]), questions(2))
+        assert list(result.outcomes.values()) == [
+            Reply(f"family/{n}", intervals=((n, n + 1),)) for n in range(2)
+        ]
+        assert result.hello.name == word
+    with pytest.raises(Unusable, match=r"cannot import '.*/none.py': FileNotFoundError"):
+        greet(target([f"{folder}/none.py:steady"]))
+
+
 def test_a_library_that_is_not_there_is_told() -> None:
     with pytest.raises(Unusable, match=r"no file './no\.so'"):
         target(["./no.so"])
