@@ -27,11 +27,12 @@ from raycert.oracle.certify.known import Expectations, Matched, failed_level, ma
 from raycert.oracle.certify.measured import measured
 from raycert.oracle.certify.selection import Left, Selection, able, select
 from raycert.oracle.certify.verdict import Verdict, verdict
+from raycert.oracle.client.adapter import adapter_faults
 from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target, Unusable
 from raycert.oracle.client.process import Failure
 from raycert.oracle.client.replay import Changed, Interrupted, alone, greet
 from raycert.oracle.client.replay import run as ask
-from raycert.oracle.client.smoke import adapter_faults, easy
+from raycert.oracle.client.smoke import easy, fallen
 from raycert.oracle.client.smoke import limits as soon
 from raycert.oracle.corpus.fresh import Fresh, fresh_rows
 
@@ -204,6 +205,7 @@ def conduct(prepared: Prepared, watch: Watch | None = None) -> Result:
         began=began,
         diagnosis={
             "likely": diagnose(grades) if any(g.faults for g in grades) else [],
+            "easy": answers.easy,
             "state": again.form(),
         },
     )
@@ -212,20 +214,20 @@ def conduct(prepared: Prepared, watch: Watch | None = None) -> Result:
     return Result(prepared, grades, ran, found, answers.changed)
 
 
-def smoke(plan: Plan, hello: Hello, watch: Watch) -> list[str]:
-    """Ask the easy cases; return what is wrong with the adapter.
+def smoke(plan: Plan, hello: Hello, watch: Watch) -> tuple[list[str], list[Json]]:
+    """Ask the easy cases; return what is wrong with the adapter, and which of them fail.
 
     Raises `Unsuitable` if it answers none of them.
     """
     cases = easy(hello)
     questions = [case.question for case in cases]
     outcomes = ask(plan.target, questions, soon(plan.limits), hello=hello).outcomes
-    said = adapter_faults(cases, outcomes)
+    said = adapter_faults(cases, outcomes, hello, plan.target)
     for line in said:
         watch.note(line)
     if cases and all(_unanswered(outcome) for outcome in outcomes.values()):
         raise Unsuitable("none of the easy cases was answered, so nothing was tested")
-    return said
+    return said, [each.form(hello) for each in fallen(cases, outcomes, hello)]
 
 
 def _unanswered(outcome: Outcome) -> bool:
@@ -239,13 +241,14 @@ class _Answers:
         """Ask the easy cases."""
         self.grades: list[Grade] = []
         self.notes: list[str] = []
+        self.easy: list[Json] = []
         self.restarts = 0
         self.stopped = False
         self.changed = ""
         self._prepared, self._watch = prepared, watch
         try:
             with interruptible():
-                self.notes += smoke(prepared.plan, prepared.hello, watch)
+                self.notes, self.easy = smoke(prepared.plan, prepared.hello, watch)
         except KeyboardInterrupt:
             self.stopped = True
 

@@ -8,5 +8,7 @@ inprocess    code that is loaded into a process of ours, and how questions trave
 worker       what runs in that process: code loaded, called and understood
 target       what the words of a target mean
 replay       a run over many questions, and what is asked again after a failure
-smoke        easy cases, and what their answers say of the adapter
+misread      what an adapter answers that misreads a question
+smoke        easy cases, and which of them fail
+adapter      what is wrong with the adapter, and what to do, for programs, functions, libraries
 """

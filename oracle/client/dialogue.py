@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import secrets
 import shlex
+import time
 from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
@@ -29,7 +30,7 @@ from raycert.cases.protocol import (
     read_hello,
     read_reply,
 )
-from raycert.oracle.client.process import GRACE, Broken, Failure, Process, shown
+from raycert.oracle.client.process import GRACE, UNREAD, Broken, Failure, Process, shown
 
 Outcome = Reply | Failure
 LEFT = "a process that it started has left its session and may still run: end it by hand"
@@ -157,22 +158,24 @@ class Dialogue(ABC):
         if more:
             raise Broken(too_much(more))
 
-    def finish(self) -> str:
+    def finish(self, seconds: float = 2 * GRACE) -> str:
         """End the input, wait for the end; return what is odd about it, or nothing.
 
-        Raises `Broken` if lines come after the last answer. The target is dead afterwards.
+        Who has not ended after so many seconds is killed, which is odd. Raises `Broken` if lines
+        come after the last answer. The target is dead afterwards.
         """
+        began = time.monotonic()
         try:
             self._process.close()
-            if more := self._unasked() or self._process.listen(2 * GRACE):
+            if more := self._unasked() or self._process.listen(seconds):
                 raise Broken(too_much(more))
-            ending = self._process.status()
+            ending = self._process.status(max(GRACE, began + seconds - time.monotonic()))
         finally:
             left = self.kill()
         if left:
             return left
         if ending == "did not end":
-            return "it did not end when its input ended, and was killed"
+            return f"it did not end within {seconds:g} s when its input ended, and was killed"
         return "" if ending == "ended with exit status 0" else f"after its input ended it {ending}"
 
     def kill(self) -> str:
@@ -279,7 +282,9 @@ EXAMPLE = '{"hello": 1, "name": "my tracer"}'
 
 def _no_hello(name: str, failure: Failure) -> str:
     advice = f'It has to answer the line {{"hello": 1}} with a line such as {EXAMPLE}'
-    if failure.kind == "hang":
+    if failure.kind == "hang" and UNREAD in failure.detail:
+        advice += "; if it is slow to start, raise --hello-timeout"
+    elif failure.kind == "hang":
         advice += ", and to flush its standard output after each line"
     return f"{name!r} gave no hello: {failure.detail}. {advice}."
 

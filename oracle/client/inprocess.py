@@ -43,7 +43,7 @@ class WorkerDialogue(Dialogue):
     def __init__(self, target: InProcess, limits: Limits) -> None:
         self._spec = target.spec
         command = ours(WORKER, target.kind, target.spec)
-        super().__init__(Process(command, LINE), limits)
+        super().__init__(Process(command, LINE, buffers=False), limits)
 
     def _greet(self) -> Hello:
         try:

@@ -12,6 +12,7 @@ import os
 import queue
 import signal
 import subprocess
+import sys
 import threading
 import time
 from collections.abc import Sequence
@@ -32,6 +33,8 @@ SLICE = 0.2
 """How often, in seconds, a silent program is asked whether it still lives."""
 GATHER = 0.0003
 """Seconds in which answers gather, to be read at once: waking for each line costs more."""
+UNREAD, UNFLUSHED = "has read nothing of its input", "output is not flushed"
+"""What a silence may look like."""
 GRACE = 0.5
 """Seconds for what follows a death or a closed input: the exit status, the last bytes."""
 
@@ -68,9 +71,13 @@ class Process:
     `kill` neither the program is left nor whom it has started (descendants.py).
     """
 
-    def __init__(self, command: Sequence[str], line: int) -> None:
-        """Start the program, whose lines have at most `line` bytes. `OSError` if it cannot be."""
-        self._line = line
+    def __init__(self, command: Sequence[str], line: int, buffers: bool = True) -> None:
+        """Start the program, whose lines have at most `line` bytes. `OSError` if it cannot be.
+
+        `buffers` tells whether what it writes may wait in a buffer of its own.
+        """
+        self._line, self._buffers = line, buffers
+        self._sent = 0
         self._tail = bytearray()
         self._errors = bytearray()
         self._flood = 0
@@ -139,10 +146,10 @@ class Process:
         """Return the output that has come and is not a whole line yet."""
         return bytes(self._tail)
 
-    def status(self) -> str:
+    def status(self, seconds: float = GRACE) -> str:
         """Return how the program ended, waiting a moment for it."""
         try:
-            code = self._popen.wait(GRACE)
+            code = self._popen.wait(seconds)
         except subprocess.TimeoutExpired:
             return "did not end"
         if code >= 0:
@@ -225,15 +232,31 @@ class Process:
         detail = f"no answer for {seconds:g} s"
         if self._tail:
             detail += f", but {shown(self._tail)!r} without a newline"
+        reads = self._deaf or self._has_read()
         if self._deaf:
             detail += ", and it has closed its standard input"
-        self.close()
-        late = self.listen(GRACE) or b""
+        elif not reads:
+            detail += f", and {UNREAD}: it is still starting, or never reads"
+        late = b""
+        if self._buffers and reads:
+            self.close()
+            late = self.listen(GRACE) or b""
         if late:
-            detail += "; it wrote only when its input was closed: output is not flushed"
+            detail += f"; it wrote only when its input was closed: {UNFLUSHED}"
         if errors := self.errors():
             detail += f"; standard error: {errors}"
         return Failure("hang", detail, shown(late or self._tail))
+
+    def _has_read(self) -> bool:
+        """Whether the program has read anything of what was sent; yes where that cannot be told."""
+        waiting = bytearray(4)
+        with contextlib.suppress(ImportError, OSError, ValueError):
+            import fcntl
+            import termios
+
+            assert self._popen.stdin
+            fcntl.ioctl(self._popen.stdin.fileno(), termios.FIONREAD, waiting)
+        return not self._sent or int.from_bytes(waiting, sys.byteorder) < self._sent
 
     def _read(self, pipe: IO[bytes]) -> None:
         # The queue is bounded: where the owner does not read, `put` blocks, the pipe fills, and the
@@ -258,7 +281,9 @@ class Process:
             while (data := self._out.get()) is not None:
                 rest = memoryview(data)
                 while rest:
-                    rest = rest[os.write(pipe.fileno(), rest) :]
+                    written = os.write(pipe.fileno(), rest)
+                    self._sent += written
+                    rest = rest[written:]
         except OSError:
             self._deaf = True
         with contextlib.suppress(OSError):

@@ -29,7 +29,7 @@ from raycert.oracle.client.dialogue import (
     Unusable,
     fresh_ids,
 )
-from raycert.oracle.client.process import Broken, Failure
+from raycert.oracle.client.process import GRACE, Broken, Failure
 
 STARTS = 3
 """A program that gave no hello this many times in a row is not started again."""
@@ -303,7 +303,7 @@ class Replay:
         if dialogue is None:
             return
         try:
-            note = dialogue.finish()
+            note = dialogue.finish(max(2 * GRACE, self._limits.case))
         except Broken as broken:
             if dialogue.last is not None:
                 self._blame(dialogue, broken.failure)

@@ -143,6 +143,7 @@ def kept(outcome: Outcome) -> int:
 
 
 def test_the_page_lists_the_lines_in_this_order() -> None:
-    rows = [line.split(" | ") for line in PAGE.read_text("utf-8").splitlines() if "|" in line]
+    table = PAGE.read_text("utf-8").partition("## What a run takes")[0]
+    rows = [line.split(" | ") for line in table.splitlines() if "|" in line]
     listed = [(cells[0].removeprefix("| "), cells[1]) for cells in rows[2:]]
     assert listed == [(line.misbehaviour, line.verdict) for line in LINES]

@@ -238,7 +238,7 @@ def test_standard_error_is_drained():
 
 @pytest.mark.parametrize(
     ("ending", "note"),
-    [("3", "exit status 3"), ("stays", "did not end when its input ended")],
+    [("3", "exit status 3"), ("stays", "did not end within 1 s when its input ended")],
 )
 def test_an_odd_end_is_noted(ending: str, note: str):
     result = run(command("farewell", ending), questions(5), SHORT)
@@ -323,7 +323,7 @@ def test_an_interrupt_keeps_what_is_known_and_kills_the_client(tmp_path: Path):
     [
         (["dies"], ["exit status 7", "no such scene: room.xml", '{"hello": 1, "name"']),
         (["banner"], ["'My Tracer 2.1'", "standard error"]),
-        (["silent"], ["no answer for 0.5 s", "flush"]),
+        (["silent"], ["no answer for 0.5 s", "has read nothing of its input", "--hello-timeout"]),
         (["nameless"], ["hello.name is missing"]),
         (["segfault"], ["was killed by SIGSEGV"]),
         (["deep", "100000"], ["is not JSON"]),
@@ -336,6 +336,19 @@ def test_a_bad_start_is_unusable_and_says_what_was_seen(words: list[str], says: 
         run(command("hello", *words), questions(3), Limits(hello=0.5))
     for text in says:
         assert text in str(caught.value)
+
+
+@pytest.mark.parametrize("moment", [0.6, 0.8])
+def test_a_slow_start_is_not_taken_for_output_that_is_not_flushed(moment: float):
+    """Its hello comes while it is looked at whether one waits in a buffer."""
+    with pytest.raises(Unusable, match="still starting") as caught:
+        greet(command("hello", "slow", moment), Limits(hello=0.5))
+    assert "flush" not in str(caught.value)
+
+
+def test_a_slow_end_is_waited_for():
+    result = run(command("farewell", "slow"), questions(3), Limits(case=5.0))
+    assert (failures(result), result.notes) == ({}, ())
 
 
 def test_a_hello_that_is_not_flushed_is_told():

@@ -14,6 +14,10 @@ elif kind == "banner":
     say(HELLO)
 elif kind == "silent":
     time.sleep(3600)
+elif kind == "slow":
+    time.sleep(float(sys.argv[2]))
+    sys.stdin.readline()
+    say(HELLO)
 elif kind == "nameless":
     say({"hello": 1})
 elif kind == "deep":
