@@ -262,7 +262,7 @@ def _all() -> Iterator[tuple[str, Lists]]:
         ("ignores the origin of the ray", _of_ray(lambda ray: Ray(ORIGIN, ray.direction))),
     )  # fmt: skip
     yield from _places()
-    yield from _axes()
+    yield from ((text, _of_leaves(_ends(change), *AXIAL)) for text, change in AXES)
     yield from _sizes()
 
 
@@ -309,47 +309,45 @@ def _foot(plane: HalfSpace, factor: float) -> Point:
     return times(factor * dot(plane.point, n) / dot(n, n), n)
 
 
-def _axes() -> Iterator[tuple[str, Lists]]:
-    """Yield what is done to p and q."""
-    up: tuple[tuple[str, Callable[[Point, Vector], tuple[Point, Point]]], ...] = (
-        ("ignores `p`: its axis runs from the origin to q", lambda p, w: (ORIGIN, plus(p, w))),
-        ("ignores `p`: its axis runs from the origin along q - p", lambda p, w: (ORIGIN, w)),
-        ("ignores where p and q are: its axis is centred at the origin",
-         lambda p, w: (times(-0.5, w), times(0.5, w))),
-        ("takes `q` for the axis: q is a point, and the axis q - p",
-         lambda p, w: (p, plus(p, plus(p, w)))),
-        ("has p and q exchanged in the axis: it runs from p along p - q",
-         lambda p, w: (p, minus(p, w))),
-        ("has p in the middle: the axis runs from p to q",
-         lambda p, w: (along(p, -0.5, w), along(p, 0.5, w))),
-        ("has the middle of pq where p has to be",
-         lambda p, w: (along(p, 0.5, w), along(p, 1.5, w))),
-        ("has half the height, from p", lambda p, w: (p, along(p, 0.5, w))),
-        ("has half the height, about the middle of pq", partial(_tall, 0.5)),
-        ("has twice the height, from p", lambda p, w: (p, along(p, 2.0, w))),
-        ("has twice the height, about the middle of pq", partial(_tall, 2.0)),
-        ("has the height 1, from p: the length of q - p is lost",
-         lambda p, w: (p, along(p, 1 / math.hypot(*w), w))),
-        ("ignores `q`: its axis is always z, from p as far as |q - p|",
-         lambda p, w: (p, plus(p, _upright(w)))),
-        ("has an axis that is always z, about the middle of pq", partial(_around, _upright)),
-        ("has an axis that is always z, from the origin", lambda p, w: (ORIGIN, _upright(w))),
-        ("has an axis that is always z, about the origin",
-         lambda p, w: _around(_upright, times(-0.5, w), w)),
-        ("gives an angle in radians where degrees are asked, from p",
-         lambda p, w: (p, plus(p, _turned(RADIAN, w)))),
-        ("gives an angle in radians where degrees are asked, about the middle of pq",
-         partial(_around, partial(_turned, RADIAN))),
-        ("gives an angle in degrees where radians are asked, from p",
-         lambda p, w: (p, plus(p, _turned(1 / RADIAN, w)))),
-        ("gives an angle in degrees where radians are asked, about the middle of pq",
-         partial(_around, partial(_turned, 1 / RADIAN))),
-        ("turns the axis the wrong way round, from p",
-         lambda p, w: (p, plus(p, _turned(-1.0, w)))),
-        ("turns the axis the wrong way round, about the middle of pq",
-         partial(_around, partial(_turned, -1.0))),
-    )  # fmt: skip
-    yield from ((text, _of_leaves(_ends(change), *AXIAL)) for text, change in up)
+AXES: tuple[tuple[str, Callable[[Point, Vector], tuple[Point, Point]]], ...] = (
+    ("ignores `p`: its axis runs from the origin to q", lambda p, w: (ORIGIN, plus(p, w))),
+    ("ignores `p`: its axis runs from the origin along q - p", lambda p, w: (ORIGIN, w)),
+    ("ignores where p and q are: its axis is centred at the origin",
+     lambda p, w: (times(-0.5, w), times(0.5, w))),
+    ("takes `q` for the axis: q is a point, and the axis q - p",
+     lambda p, w: (p, plus(p, plus(p, w)))),
+    ("has p and q exchanged in the axis: it runs from p along p - q",
+     lambda p, w: (p, minus(p, w))),
+    ("has p in the middle: the axis runs from p to q",
+     lambda p, w: (along(p, -0.5, w), along(p, 0.5, w))),
+    ("has the middle of pq where p has to be",
+     lambda p, w: (along(p, 0.5, w), along(p, 1.5, w))),
+    ("has half the height, from p", lambda p, w: (p, along(p, 0.5, w))),
+    ("has half the height, about the middle of pq", partial(_tall, 0.5)),
+    ("has twice the height, from p", lambda p, w: (p, along(p, 2.0, w))),
+    ("has twice the height, about the middle of pq", partial(_tall, 2.0)),
+    ("has the height 1, from p: the length of q - p is lost",
+     lambda p, w: (p, along(p, 1 / math.hypot(*w), w))),
+    ("ignores `q`: its axis is always z, from p as far as |q - p|",
+     lambda p, w: (p, plus(p, _upright(w)))),
+    ("has an axis that is always z, about the middle of pq", partial(_around, _upright)),
+    ("has an axis that is always z, from the origin", lambda p, w: (ORIGIN, _upright(w))),
+    ("has an axis that is always z, about the origin",
+     lambda p, w: _around(_upright, times(-0.5, w), w)),
+    ("gives an angle in radians where degrees are asked, from p",
+     lambda p, w: (p, plus(p, _turned(RADIAN, w)))),
+    ("gives an angle in radians where degrees are asked, about the middle of pq",
+     partial(_around, partial(_turned, RADIAN))),
+    ("gives an angle in degrees where radians are asked, from p",
+     lambda p, w: (p, plus(p, _turned(1 / RADIAN, w)))),
+    ("gives an angle in degrees where radians are asked, about the middle of pq",
+     partial(_around, partial(_turned, 1 / RADIAN))),
+    ("turns the axis the wrong way round, from p",
+     lambda p, w: (p, plus(p, _turned(-1.0, w)))),
+    ("turns the axis the wrong way round, about the middle of pq",
+     partial(_around, partial(_turned, -1.0))),
+)  # fmt: skip
+"""What is done to p and q - p: the new ends."""
 
 
 def _sizes() -> Iterator[tuple[str, Lists]]:
