@@ -207,7 +207,7 @@ class PipeDialogue(Dialogue):
     """The dialogue with a program, over its standard input and output."""
 
     def __init__(self, command: Sequence[str], limits: Limits, ids: Iterator[str]) -> None:
-        self._name = shlex.join(command)
+        self._words, self._name = tuple(command), shlex.join(command)
         self._ids = ids
         self._last_id = ""
         super().__init__(_start(command, limits), limits)
@@ -225,7 +225,7 @@ class PipeDialogue(Dialogue):
         try:
             first, *self._held = self._process.receive(self._limits.hello)
         except Broken as broken:
-            raise Unusable(_no_hello(self._name, broken.failure)) from None
+            raise Unusable(_no_hello(self._words, broken.failure)) from None
         try:
             return read_hello(first)
         except BadLine as error:
@@ -280,13 +280,16 @@ def _start(command: Sequence[str], limits: Limits) -> Process:
 EXAMPLE = '{"hello": 1, "name": "my tracer"}'
 
 
-def _no_hello(name: str, failure: Failure) -> str:
+def _no_hello(words: Sequence[str], failure: Failure) -> str:
     advice = f'It has to answer the line {{"hello": 1}} with a line such as {EXAMPLE}'
     if failure.kind == "hang" and UNREAD in failure.detail:
         advice += "; if it is slow to start, raise --hello-timeout"
     elif failure.kind == "hang":
         advice += ", and to flush its standard output after each line"
-    return f"{name!r} gave no hello: {failure.detail}. {advice}."
+    scripts = [word for word in words if word.endswith(".py")]
+    if scripts and failure.detail == "ended with exit status 0":
+        advice += f". A function in a file is a target of its own: {scripts[0]}:intersect"
+    return f"{shlex.join(words)!r} gave no hello: {failure.detail}. {advice}."
 
 
 def _bad_hello(name: str, error: str, first: bytes, errors: str) -> str:

@@ -12,9 +12,13 @@ A file that exists is never taken for a callable, whatever its name.
 
 from __future__ import annotations
 
+import ast
+import os
 import re
+import shlex
 from collections.abc import Sequence
 from pathlib import Path
+from shutil import which
 from typing import TYPE_CHECKING
 
 from raycert.oracle.client.dialogue import Command, Target, Unusable
@@ -42,7 +46,38 @@ def target(words: Sequence[str]) -> Target:
             return InProcess("library", word)
         if not exists and CALLABLE.fullmatch(word):
             return InProcess("callable", word)
+        if file := _python_file(word):
+            raise Unusable(_what_to_write(file))
     return Command(tuple(words))
+
+
+def _python_file(word: str) -> Path | None:
+    """Return the file of Python that a word means, which is no program by itself; None else."""
+    path = Path(word)
+    if path.suffix != ".py" and not which(word):
+        path = path.with_name(f"{path.name}.py")
+    runs = "/" in word and path == Path(word) and os.access(path, os.X_OK)
+    return None if runs or path.suffix != ".py" or not path.is_file() else path
+
+
+def _what_to_write(path: Path) -> str:
+    """Return how a file of Python is given, by the functions that it has."""
+    try:
+        body = ast.parse(path.read_bytes()).body
+    except (OSError, SyntaxError, ValueError, RecursionError):
+        body = []
+    names = [
+        node.name
+        for node in body
+        if isinstance(node, ast.FunctionDef) and len(node.args.posonlyargs + node.args.args) == 2
+    ]
+    name = next(iter(sorted(names, key=lambda name: name != "intersect")), "FUNCTION")
+    function = shlex.quote(f"{path}:{name}")
+    program = shlex.join(["python3", str(path)])
+    return (
+        f"{str(path)!r} is a file of Python, and not a program. For its function of a solid and a "
+        f"ray write {function}; if it speaks the line protocol, write -- {program}"
+    )
 
 
 def load(words: Sequence[str]) -> Loaded:

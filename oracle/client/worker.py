@@ -26,6 +26,7 @@ from __future__ import annotations
 
 import ctypes
 import importlib
+import inspect
 import json
 import math
 import os
@@ -34,13 +35,14 @@ import time
 from array import array
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from difflib import get_close_matches
 from functools import partial
 from importlib.machinery import PathFinder
 from importlib.util import module_from_spec, spec_from_file_location
 from itertools import islice
 from pathlib import Path
 from types import ModuleType
-from typing import BinaryIO, SupportsFloat
+from typing import Any, BinaryIO, SupportsFloat
 
 from raycert.cases.formats import Format
 from raycert.cases.model import SOLIDS, Ray, Solid, Tree, nodes, type_of
@@ -166,9 +168,11 @@ class Loaded:
 def load_callable(spec: str) -> Loaded:
     """Load `module:function`, of the current directory where it is there. Raises `CannotLoad`.
 
-    The module may be the path of a file, `submissions/a-b.py:function`.
-    A dict `hello` that the function or else its module has declares it, with the fields of the
-    protocol's hello; where there is none, it is a closed binary64 tracer of every solid.
+    The module may be the path of a file, `submissions/a-b.py:function`; the function a method of an
+    object, or of a class, which is made without arguments. What declares it is `hello` of the
+    function, else of its object or class, else of the module: a dict of the fields of the
+    protocol's hello, or what has them as attributes. Without one it is a closed binary64 tracer of
+    every solid.
     """
     module_name, _, path = spec.rpartition(":")
     try:
@@ -178,21 +182,63 @@ def load_callable(spec: str) -> Loaded:
             f"cannot import {module_name!r}: {described(error)}. The target is MODULE:FUNCTION, "
             "looked for in the current directory, then on PYTHONPATH, then among what is installed."
         ) from None
-    function: object = module
+    places: list[Any] = [module]
     for name in path.split("."):
-        if not hasattr(function, name):
-            place = getattr(module, "__file__", "built in")
-            raise CannotLoad(
-                f"{module_name!r} has no {path!r} (it is {place}). The target is MODULE:FUNCTION, "
-                "such as tracer:intersect."
-            )
-        function = getattr(function, name)
-    if not callable(function):
+        if not hasattr(places[-1], name):
+            raise CannotLoad(_missing(spec, module, places[-1], name))
+        places.append(getattr(places[-1], name))
+    declared: Any = next((place.hello for place in reversed(places) if hasattr(place, "hello")), {})
+    return Loaded(_declared(declared, spec), _function(spec, *places[-2:]))
+
+
+def _missing(spec: str, module: ModuleType, place: object, name: str) -> str:
+    """Return what is said of a name that is not there, with the one that was meant."""
+    module_name, _, path = spec.rpartition(":")
+    names = [
+        each for each, value in vars(place).items()
+        if callable(value) and each[0] != "_"
+        and getattr(value, "__module__", None) == module.__name__
+    ] if hasattr(place, "__dict__") else []  # fmt: skip
+    seen = f"{module_name!r} has no {path!r} (it is {getattr(module, '__file__', 'built in')})."
+    if not names:
+        return f"{seen} The target is MODULE:FUNCTION, such as tracer:intersect."
+    before = spec[: len(spec) - len(path)] + path.rpartition(name)[0]
+    [meant, *_] = [*get_close_matches(name, names, 1), *names]
+    return f"{seen} Did you mean {before}{meant}? It has {', '.join(names[:8])}."
+
+
+def _function(spec: str, owner: object, found: object) -> Callable[[Solid, Ray], object]:
+    """Return what is called as intersect(solid, ray). Raises `CannotLoad` if that cannot be."""
+    try:
+        if isinstance(owner, type) and inspect.isfunction(
+            inspect.getattr_static(owner, _last(spec))
+        ):
+            found = getattr(owner(), _last(spec))
+        elif isinstance(found, type) and any("__call__" in vars(kind) for kind in found.__mro__):
+            found = found()
+    except Exception as error:
+        raise CannotLoad(f"the class of {spec!r} cannot be made: {described(error)}.") from None
+    if not callable(found) or isinstance(found, type):
+        kind = "class" if isinstance(found, type) else type(found).__name__
+        hint = f" A method of it is a target: {spec}.intersect." if kind == "class" else ""
+        raise CannotLoad(f"{spec!r} is a {kind}, and not a function intersect(solid, ray).{hint}")
+    try:
+        signature = inspect.signature(found)
+    except (TypeError, ValueError):  # of code that is not Python's
+        return found
+    try:
+        signature.bind(None, None)
+    except TypeError as error:
         raise CannotLoad(
-            f"{spec!r} is a {type(function).__name__}, and not a function intersect(solid, ray)."
-        )
-    declared = getattr(function, "hello", getattr(module, "hello", {}))
-    return Loaded(_declared(declared, spec), function)
+            f"{_last(spec)}{signature} cannot be called as {_last(spec)}(solid, ray): {error}. "
+            "They are objects of raycert.cases.model: a Sphere has solid.center and solid.radius, "
+            "a ray ray.origin and ray.direction. Write a function that takes them apart for yours."
+        ) from None
+    return found
+
+
+def _last(spec: str) -> str:
+    return spec.rpartition(":")[2].rpartition(".")[2]
 
 
 def _module(name: str) -> ModuleType:
@@ -231,17 +277,31 @@ def _origin(module: ModuleType) -> str | None:
     return module.__spec__.origin if module.__spec__ else None
 
 
-def _declared(fields: object, spec: str) -> Hello:
-    if not isinstance(fields, dict):
-        raise CannotLoad(
-            f"the `hello` of {spec!r} is a {type(fields).__name__}: it has to be a dict of the "
-            'fields of a hello, such as {"name": "my tracer", "solids": ["sphere"]}.'
-        )
+def _declared(hello: Any, spec: str) -> Hello:
+    """Return the hello that a dict is, or whatever has its fields as attributes."""
+    fields = hello
+    if isinstance(hello, Hello):
+        fields = hello.form()
+    elif not isinstance(hello, dict):
+        fields = {name: getattr(hello, name) for name in Hello.__slots__ if hasattr(hello, name)}
+        if not fields:
+            raise CannotLoad(
+                f"the `hello` of {spec!r} is a {type(hello).__name__}: it has to be a dict of the "
+                'fields of a hello, such as {"name": "my tracer", "solids": ["sphere"]}, or an '
+                "object that has them."
+            )
     try:
-        line = json.dumps({"hello": VERSION, "name": spec, **fields})
+        line = json.dumps({"hello": VERSION, "name": spec, **fields}, default=_listed)
     except (TypeError, ValueError, RecursionError) as error:
         raise CannotLoad(f"the `hello` of {spec!r} is not JSON: {error}.") from None
     return read_declared(line.encode(), spec)
+
+
+def _listed(value: object) -> list[Any]:
+    """Return a set as JSON has it."""
+    if isinstance(value, set | frozenset):
+        return sorted(value)
+    raise TypeError(f"a {type(value).__name__} has no form there")
 
 
 def read_declared(line: bytes, spec: str) -> Hello:

@@ -26,7 +26,8 @@ from raycert.cases.model import (
 from raycert.cases.protocol import Hello, Pairs, Reply
 from raycert.cases.vectors import norm
 from raycert.oracle.client.adapter import adapter_faults
-from raycert.oracle.client.dialogue import Limits, Outcome
+from raycert.oracle.client.dialogue import Limits, Outcome, Target
+from raycert.oracle.client.inprocess import InProcess
 from raycert.oracle.client.process import Failure
 from raycert.oracle.client.replay import run
 from raycert.oracle.client.smoke import EASY, Easy, easy, limits
@@ -327,3 +328,41 @@ def test_the_check_of_the_truths_can_fail():
     assert not agrees(((2, 4.01),), case.solid, case.ray)
     assert not agrees((), case.solid, case.ray)
     assert not agrees(case.truth, resized(case.solid, 0.99), case.ray)
+
+
+def knows_spheres(_: int, case: Easy) -> Pairs | None:
+    return case.truth if isinstance(case.solid, Sphere) else None
+
+
+@pytest.mark.parametrize(
+    ("target", "says"),
+    [
+        (InProcess("callable", "s_ok.py:Tracer.trace"), 'trace.hello = {"solids": ["sphere"]}'),
+        (InProcess("library", "./tracer.so"), 'let raycert_hello return "solids": ["sphere"]'),
+        (("./tracer",), 'put "solids": ["sphere"] into its hello'),
+    ],
+)
+def test_who_refuses_whole_types_is_asked_whether_it_knows_them(target: Target, says: str):
+    hello = Hello("x")
+    given: dict[str, Outcome] = {
+        case.question.id: Reply("", error="TypeError: no p")
+        if (pairs := knows_spheres(0, case)) is None
+        else Reply("", intervals=pairs)
+        for case in EASY
+    }
+    (said,) = adapter_faults(EASY, given, hello, target)
+    assert "'TypeError: no p' on every easy cylinder and infinite_cylinder and slab" in said
+    assert "says nothing of `solids`, which means all types" in said
+    assert says in said
+    assert ("raises" in said) == (isinstance(target, InProcess) and target.kind == "callable")
+
+
+@pytest.mark.parametrize("kind", ["hang", "crash", "bad-line", "malformed"])
+def test_advice_for_pipes_is_for_programs_only(kind: str):
+    failure = all_failing(Failure(kind, "it returned the int 7", "x"))  # type: ignore[arg-type]
+    pipes = ("flush", "line", "standard output", "input", "JSON")
+    for code in (InProcess("callable", "a:f"), InProcess("library", "a.so")):
+        (said,) = adapter_faults(CYLINDERS, failure, Hello("x"), code)
+        assert not any(word in said for word in pipes), said
+    (said,) = adapter_faults(CYLINDERS, failure, Hello("x"), ("./tracer",))
+    assert kind == "malformed" or any(word in said for word in pipes)

@@ -205,6 +205,103 @@ def test_a_command_is_a_target_too() -> None:
     assert failures(run(program, questions(20), SHORT)) == {}
 
 
+DECLARES = """
+from types import SimpleNamespace
+from raycert.cases.protocol import Hello
+
+class Tracer:
+    class hello:
+        name, solids = "class attribute", {"sphere", "cylinder"}
+    def intersect(self, solid, ray):
+        return [(ray.origin[0], ray.origin[0] + 1)]
+    def __call__(self, solid, ray):
+        return self.intersect(solid, ray)
+
+class Needy(Tracer):
+    def __init__(self, scene): pass
+
+class Bare:
+    pass
+
+def plain(solid, ray): return []
+def narrow(radius, origin, direction): return []
+def loose(*args): return []
+tracer = Tracer()
+own = Tracer()
+own.hello = SimpleNamespace(name="object's own", solids=("slab",))
+plain.hello = Hello("a Hello", solids=("sphere",))
+hello = {"name": "module"}
+"""
+
+
+@pytest.fixture
+def declares(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> str:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "declares.py").write_text(DECLARES)
+    return "declares.py"
+
+
+@pytest.mark.parametrize(
+    ("path", "name", "solids"),
+    [
+        ("plain", "a Hello", ("sphere",)),
+        ("loose", "module", None),
+        ("tracer", "class attribute", ("cylinder", "sphere")),
+        ("tracer.intersect", "class attribute", ("cylinder", "sphere")),
+        ("Tracer.intersect", "class attribute", ("cylinder", "sphere")),
+        ("Tracer", "class attribute", ("cylinder", "sphere")),
+        ("own.intersect", "object's own", ("slab",)),
+    ],
+)
+def test_a_hello_is_of_the_function_or_else_of_what_holds_it(
+    declares: str, path: str, name: str, solids: tuple[str, ...] | None
+) -> None:
+    found = load([f"{declares}:{path}"])
+    assert found.hello == (Hello(name, solids=solids) if solids else Hello(name))
+    if "racer" in path:
+        assert found(CAN, Ray((2, 0, 0), (0, 0, 1))) == Reply("", intervals=((2.0, 3.0),))
+
+
+@pytest.mark.parametrize(
+    ("path", "says"),
+    [
+        ("plian", r"Did you mean declares\.py:plain\? It has Tracer, Needy, Bare, plain, narrow"),
+        ("Tracer.intersekt", r"Did you mean declares\.py:Tracer\.intersect\?"),
+        ("tracer.x.y", r"has no 'tracer\.x\.y'"),
+        ("narrow", r"narrow\(radius, origin, direction\) cannot be called as narrow\(solid, ray\)"),
+        ("Needy.intersect", r"the class of .* cannot be made: TypeError"),
+        ("Bare", r"is a class, .* A method of it is a target: declares\.py:Bare\.intersect"),
+    ],
+)
+def test_what_was_meant_is_told(declares: str, path: str, says: str) -> None:
+    with pytest.raises(Unusable, match=says):
+        load([f"{declares}:{path}"])
+
+
+@pytest.mark.parametrize(
+    ("text", "function"),
+    [
+        ("def intersect(solid, ray): return []\n", "intersect"),
+        ("def help(a, b): pass\ndef intersect(solid, ray): return []\n", "intersect"),
+        ("def helper(): pass\ndef trace(solid, ray): return []\n", "trace"),
+        ("def broken(:\n", "FUNCTION"),
+    ],
+)
+def test_a_file_of_python_is_told_what_to_write_instead(
+    text: str, function: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "s_ok.py").write_text(text)
+    for word in ("s_ok.py", "./s_ok.py", "s_ok"):
+        says = f"write s_ok.py:{function}; .* write -- python3 s_ok.py$"
+        with pytest.raises(Unusable, match=says):
+            target([word])
+    with pytest.raises(Unusable, match=r"a target of its own: s_ok\.py:intersect|SyntaxError"):
+        greet(target([sys.executable, "s_ok.py"]))
+    (tmp_path / "s_ok.py").chmod(0o755)
+    assert target(["./s_ok.py"]) == Command(("./s_ok.py",)), "it may be a program"
+
+
 # Answers
 
 

@@ -121,7 +121,7 @@ def unsaid(solid: Any, ray: Any) -> Any:
     return []
 
 
-unsaid.hello = {"name": {1, 2}}  # type: ignore[attr-defined]
+unsaid.hello = {"name": b"bytes"}  # type: ignore[attr-defined]
 
 
 def wordy(solid: Any, ray: Any) -> Any:
