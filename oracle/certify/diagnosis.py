@@ -1,141 +1,218 @@
-"""What the answers of a run have in common: the likely fault, and where they belie the hello.
+"""What the answers of a run have in common: the likely faults, and where they belie the hello.
 
-Whose answers are these? The failing ones are compared with those of the zoo. A fault is named if it
-explains the run both ways: the share of rows on which the answers agree, of all rows that the
-subject or the fault fails, is at least SHARE. It has to be the only such fault, and more than a few
-rows have to agree. Otherwise nothing is said. Contradictions of the hello stand beside the verdict,
-which they do not change.
+Whose answers are these? The failing ones are compared with those of the zoo and with signatures,
+for each solid and level, and the fewest that explain the most are told; see `cover` for when a
+fault is named. Contradictions of the hello stand beside the verdict, which they do not change.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
-from math import isinf, isnan, ldexp
-from typing import Any
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from math import isinf
+from typing import Any, TypeVar
 
-from raycert.cases.accept import Numbers
-from raycert.cases.formats import BINARY32, BINARY64, Format
-from raycert.cases.levels import Level, upto
+from raycert.cases.formats import BINARY32, BINARY64
+from raycert.cases.levels import Level
 from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello
+from raycert.oracle.certify.alike import KINDS, Kind, Mode, agrees, fails, kind
+from raycert.oracle.certify.cover import LEAST, Failures, Suspect, cover, needed, shares
 from raycert.oracle.certify.grading import Grade, usual
+from raycert.oracle.certify.signatures import Signature, signatures
 from raycert.oracle.certify.verdict import Touches, by_solid
-from raycert.oracle.judge.answer import First, Listed
-from raycert.oracle.zoo.inhabitants import FAULTS
-from raycert.oracle.zoo.matrix import Outcome, Trials
-from raycert.oracle.zoo.tracer import Fault
+from raycert.oracle.judge.answer import Claim, First, Listed
+from raycert.oracle.zoo.inhabitants import CATALOGUE
+from raycert.oracle.zoo.matrix import Outcome
+from raycert.oracle.zoo.tracer import Fault, concerns
 
-SHARE = 0.92
-"""Between 1, the share of a fault with itself, and 0.83, the most that any two of the zoo share
-over the corpus; tests/certify/test_diagnosis.py measures that."""
-LEAST = 8
-"""Fewer failures than these are explained by too many faults."""
-SLACK = 12
-"""Bits of an endpoint that may differ: roundings of another formula. Faults differ in far more."""
-SAMPLE = 48
-"""Failures that every fault is tried on; all others are for those that explain these."""
+SEARCHED = 32
+"""Failures that every fault is tried on; others are for those that explain enough of these."""
+SHOWN = 128
+"""Failures that the faults are chosen by; what is chosen is counted on all."""
+PASSING = 128
+"""Rows that pass on which a fault is tried that explains failures."""
 
 
 def diagnose(grades: Sequence[Grade]) -> list[dict[str, Any]]:
-    """Return the likely fault for each type of solid, as the certificate has it."""
-    return [found for group in by_solid(grades) for found in likely(group.name, group.grades)]
+    """Return the likely faults for each type of solid and level, as the certificate has them.
 
-
-def likely(solid: str, grades: Sequence[Grade]) -> list[dict[str, Any]]:
-    """Return what the failing answers look like: one finding, or none. For lists of intervals."""
-    level, failing = failures(grades)
-    if len(failing) < LEAST:
-        return []
-    bench, named = Trials([g.row for g in grades], grades[0].judge.format), []
-    sample = failing[:: max(len(failing) // SAMPLE, 1)]
-    ids = {g.row.id for g in sample}
-    for fault in FAULTS:
-        if fault.stateful or _outcomes(fault, sample, ids, 1) is not None:
-            agreed, share = explained(fault, level, bench, grades, failing)
-            if agreed >= LEAST and share >= SHARE:
-                named.append((fault, agreed))
-    if len(named) != 1:
-        return []
-    fault, agreed = named[0]
-    tracer = fault.make()
-    agreeing = (g for g in failing if agrees(g, Outcome.of(tracer, g.row, g.judge.format)))
-    first = next(agreeing, failing[0])
-    said = {"fault": fault.name, "does": fault.does, "origin": fault.origin}
-    causes = [{**said, "rows": agreed, "first": first.row.id}]
-    counts = {"failures": len(failing), "explained": causes}
-    return [{"solid": solid, "level": level, **counts, "unexplained": len(failing) - agreed}]
-
-
-def failures(grades: Sequence[Grade]) -> tuple[Level, list[Grade]]:
-    """Return the failures to explain: of `sound`; of `stable` where those are only a few."""
-    counted = usual(grades)
-    gross = [g for g in counted if g.fault("sound")]
-    if len(gross) >= LEAST:
-        return "sound", gross
-    return "stable", [g for g in counted if g.fault("sound") or g.fault("stable")]
-
-
-def explained(
-    fault: Fault, level: Level, bench: Trials, grades: Sequence[Grade], failing: Sequence[Grade]
-) -> tuple[int, float]:
-    """Return on how many failures a fault agrees, and their share of its failures and these.
-
-    The share is 0 where the failures alone keep it below SHARE.
+    What fails `stable` alone is explained, as far as it goes, by the faults that were named for
+    `sound`, on whatever solid, and by those that are sound.
     """
-    ids = {g.row.id for g in failing}
-    outcomes = _outcomes(fault, grades, ids)
-    if outcomes is None:
-        return 0, 0.0
-    tried = list(zip(grades, outcomes, bench.base, strict=True))
-    agreed = sum(agrees(g, outcome) for g, outcome, _ in tried if g.row.id in ids)
-    levels = upto(level)
-    others = 0
-    for g, outcome, base in tried:
-        if g.row.id not in ids and g.row.tier != "range" and outcome != base:
-            refusal = bench.refusal(g.row, outcome, base)
-            others += refusal is not None and refusal.level in levels
-    return agreed, agreed / (len(failing) + others)
+    past, counted = Past(grades), by_solid(usual(grades))
+    found = together([Trial(g.name, "sound", g.grades, past) for g in counted])
+    named = {cause["fault"] for told in found for cause in told["explained"]}
+    fine = [[g for g in group.grades if not g.fault("sound")] for group in counted]
+    trials = zip(counted, fine, strict=True)
+    return found + together([Trial(g.name, "stable", f, past, named) for g, f in trials])
 
 
-def _outcomes(
-    fault: Fault, grades: Sequence[Grade], failing: set[str], more: int = 0
-) -> list[Outcome] | None:
-    """Return what a fault answers to all rows; None once it disagrees on too many failures.
+def together(trials: Sequence[Trial]) -> list[dict[str, Any]]:
+    """Return what explains each; of faults that do so alike, the one that explains most in all."""
+    some = [trial for trial in trials if len(trial.failing) >= LEAST]
+    everywhere = Counter[str]()
+    for trial in some:
+        everywhere.update({s.name: len(s.rows) for s in trial.suspects})
+    return [trial.likely(everywhere) for trial in some]
 
-    Too many are those that keep the share below SHARE, and `more`.
-    """
-    tracer, outcomes = fault.make(), []
-    spare = (1 - SHARE) * len(failing) + more
-    for g in grades:
-        outcome = Outcome.of(tracer, g.row, g.judge.format)
-        outcomes.append(outcome)
-        spare -= g.row.id in failing and not agrees(g, outcome)
-        if spare < 0:
+
+@dataclass
+class Past:
+    """All that was asked, for the faults that depend on what was asked before."""
+
+    grades: Sequence[Grade]
+    known: dict[str, dict[str, Outcome]] = field(default_factory=dict)
+
+    def answers(self, fault: Fault) -> dict[str, Outcome]:
+        """Return what a fault answers to each row, in the order in which they are asked."""
+        if fault.name not in self.known:
+            order, tracer = sorted(self.grades, key=lambda g: g.row.tier == "range"), fault.make()
+            self.known[fault.name] = {
+                g.row.id: Outcome.of(tracer, g.row, g.judge.format) for g in order
+            }
+        return self.known[fault.name]
+
+
+@dataclass
+class Trial:
+    """The rows of one type of solid that count for a level, and who may have failed them."""
+
+    solid: str
+    level: Level
+    grades: Sequence[Grade]
+    past: Past
+    named: Set[str] = frozenset()
+
+    @cached_property
+    def failing(self) -> list[Grade]:
+        return [g for g in self.grades if g.fault(self.level)]
+
+    @cached_property
+    def passing(self) -> list[Grade]:
+        return [g for g in self.grades if g.counts(self.level) and not g.fault(self.level)]
+
+    @cached_property
+    def shown(self) -> Sequence[Grade]:
+        return spread(self.failing, SHOWN)
+
+    @cached_property
+    def mode(self) -> Mode:
+        return Mode(next((g.said for g in self.grades if g.said is not None), Listed(())))
+
+    def likely(self, everywhere: Mapping[str, int]) -> dict[str, Any]:
+        """Return what explains the failures, and how many nothing does."""
+        chosen = cover(self.suspects, self.failures, everywhere)
+        found = shares(needed([self.whole(suspect) for suspect in chosen]))
+        causes = [
+            {
+                "fault": suspect.name,
+                "does": suspect.does,
+                "origin": suspect.origin,
+                "rows": len(rows),
+                "first": self.failing[min(rows)].row.id,
+            }
+            for suspect, rows in found
+        ]
+        counts = {"solid": self.solid, "level": self.level, "failures": len(self.failing)}
+        rest = len(self.failing) - sum(len(rows) for _, rows in found)
+        return {**counts, "explained": causes, "unexplained": rest}
+
+    def whole(self, suspect: Suspect) -> Suspect:
+        """Return a suspect with all failures that it explains, not of those shown alone."""
+        known = self.shown is self.failing
+        rows = suspect.rows if known else self.explained(suspect.explains, self.failing)
+        return replace(suspect, rows=rows)
+
+    @staticmethod
+    def explained(explains: Callable[[Grade], bool], grades: Sequence[Grade]) -> frozenset[int]:
+        return frozenset(i for i, g in enumerate(grades) if explains(g))
+
+    @cached_property
+    def failures(self) -> Failures:
+        """Return the kinds of the answers shown, and how many rows in their place might be so."""
+        part = len(self.shown) / len(self.failing)
+        could: dict[Kind, float] = dict.fromkeys(KINDS, part * len(self.grades))
+        could["miss"] = part * sum(bool(g.row.expected) for g in self.grades)
+        return Failures([kind(g.said) for g in self.shown], could)
+
+    @cached_property
+    def suspects(self) -> list[Suspect]:
+        """Return the faults and the signatures that explain at least a few of the failures."""
+        found = [self.signature(signature) for signature in signatures(self.shown)]
+        faults = (self.fault(f) for f in CATALOGUE if concerns(f, self.solid))
+        return [s for s in (*faults, *found) if s and len(s.rows) >= LEAST]
+
+    def signature(self, signed: Signature) -> Suspect:
+        rows = self.explained(signed.holds, self.shown)
+        how = (signed.holds, rows, signed.telling, signed.alone)
+        return Suspect(signed.name, signed.does, signed.origin, *how)
+
+    def fault(self, fault: Fault) -> Suspect | None:
+        """Return a fault as a suspect; None if it explains too little to be looked at."""
+        answer = self.answers(fault)
+        explains = self.explains(fault, answer)
+        some = spread(self.shown, SEARCHED)
+        if sum(map(explains, some)) * len(self.shown) < LEAST * len(some):
             return None
-    return outcomes
+        rows = self.explained(explains, self.shown)
+        said = ((i, g, answer(g)) for i, g in enumerate(self.shown))
+        failed = {i: self.kind(fault, claim) for i, g, claim in said if fails(claim, g, self.level)}
+        some = spread(self.passing, PASSING)
+        passed = Counter(
+            self.kind(fault, claim) for g in some if fails(claim := answer(g), g, self.level)
+        )
+        scale = len(self.passing) / max(len(some), 1) * len(self.shown) / len(self.failing)
+        against = {k: n * scale for k, n in passed.items()}
+        first = fault.name in self.named or self.by_place(fault)
+        how = {"failed": failed, "passed": against, "first": first}
+        return Suspect(fault.name, fault.does, fault.origin, explains, rows, **how)
+
+    def answers(self, fault: Fault) -> Callable[[Grade], Claim | None]:
+        """Return what a fault answers, in the subject's way."""
+        tracer, known = fault.make(), self.past.answers(fault) if fault.stateful else {}
+
+        def answer(g: Grade) -> Claim | None:
+            if g.row.id not in known:
+                known[g.row.id] = Outcome.of(tracer, g.row, g.judge.format)
+            return self.mode.claim(known[g.row.id].answer)
+
+        return answer
+
+    def explains(
+        self, fault: Fault, answer: Callable[[Grade], Claim | None]
+    ) -> Callable[[Grade], bool]:
+        """Return whether a fault explains how a row fails: it answers alike, and is wrong there.
+
+        One that is sound is known by where it fails: another formula errs as much, not alike.
+        """
+        if self.by_place(fault):
+            return lambda g: (
+                kind(g.said) == kind(claim := answer(g))
+                and fails(claim, g, "stable")
+                and not fails(claim, g, "sound")
+            )
+        return lambda g: agrees(g, claim := answer(g)) and fails(claim, g, self.level)
+
+    def kind(self, fault: Fault, claim: Claim | None) -> Kind:
+        return "place" if self.by_place(fault) else kind(claim)
+
+    def by_place(self, fault: Fault) -> bool:
+        return self.level == "stable" and fault.granted == "sound"
 
 
-def agrees(grade: Grade, outcome: Outcome) -> bool:
-    """Whether a graded answer is that of a fault, but for roundings.
+T = TypeVar("T")
 
-    No answer agrees with none, NaN with NaN wherever it stands, and a list with one as long.
+
+def spread(items: Sequence[T], count: int) -> Sequence[T]:
+    """Return at most so many, from all over.
+
+    >>> spread([1, 2, 3, 4, 5], 3)
+    [1, 2, 4]
     """
-    if grade.answer is None or outcome.answer is None:
-        said = next(iter(grade.faults.values()), "")
-        return grade.answer is outcome.answer and said.startswith(("crash", "error"))
-    return close(grade.answer, outcome.answer, grade.judge.format)
-
-
-def close(one: Numbers, other: Numbers, fmt: Format) -> bool:
-    """Whether two lists differ by some roundings of their largest number."""
-    ends, others = [x for pair in one for x in pair], [x for pair in other for x in pair]
-    if any(map(isnan, ends)) or any(map(isnan, others)):
-        return any(map(isnan, ends)) and any(map(isnan, others))
-    if len(ends) != len(others):
-        return False
-    size = max((abs(x) for x in (*ends, *others) if not isinf(x)), default=0.0)
-    slack = ldexp(size, SLACK - fmt.precision)
-    return all(a == b or abs(a - b) <= slack for a, b in zip(ends, others, strict=True))
+    step = len(items) / count
+    return items if step <= 1 else [items[int(i * step)] for i in range(count)]
 
 
 FEW = 8

@@ -23,6 +23,7 @@ from raycert.oracle.zoo.tracer import (
     Tracer,
     ahead,
     discriminant,
+    fault,
     fraction,
     merged,
     single,
@@ -117,14 +118,19 @@ DROPPED: dict[str, Any] = {
 UNSTRESSED = ("half_space", "slab")
 """Solids with no discriminant."""
 
+TEXTBOOK = "solves by the discriminant b^2 - a c"
+DISCRIMINANT = fault("discriminant", TEXTBOOK, "any textbook: far away, c is all cancellation",
+                     "sphere-far", "wrong end", "sound", chord=discriminant)  # fmt: skip
+CATALOGUE = (*FAULTS, DISCRIMINANT)
+"""What failures are explained by: planted faults, and what is sound and not stable."""
+
 SOUND: tuple[Sound, ...] = (
     Sound("base", "crosses with the axis, and starts from the closest approach", BASE, "stable"),
     Sound("projected", "projects on the plane square to the axis, and scales nothing",
           replace(BASE, **PLAIN), "stable"),
     Sound("local-frame", "turns the ray into a frame whose third axis is that of the solid",
           replace(BASE, scale=unscaled, wall=_framed), "stable"),
-    Sound("textbook", "solves by the discriminant b^2 - a c", replace(BASE, chord=discriminant),
-          "sound", but=tuple((name, "stable") for name in UNSTRESSED)),
+    Sound("textbook", TEXTBOOK, replace(BASE, chord=discriminant), "sound", but=tuple((name, "stable") for name in UNSTRESSED)),
     Sound("extended", "computes in fractions, roots to 240 bits, and rounds at the end",
           replace(BASE, number=fraction, scale=unscaled, wall=_rationally, chord=discriminant,
                   tell=_to_double), "exact"),

@@ -408,6 +408,25 @@ class Fault:
     stateful: bool = False
 
 
+STEPS = {
+    "half_space": {"below", "plane"},
+    "sphere": {"ball", "chord"},
+    "infinite_cylinder": {"wall", "chord"},
+    "slab": {"caps", "plane", "share"},
+    "cylinder": {"can", "wall", "chord", "caps", "plane", "share"},
+}
+"""The steps that are taken for each leaf, but for those that are taken for all."""
+ALWAYS = {"read", "number", "ahead", "tell"}
+
+
+def concerns(fault: Fault, solid: str) -> bool:
+    """Whether a fault is in a step taken for a type of solid. Scaling alone is no fault."""
+    tracer = fault.make()
+    if solid not in STEPS or not isinstance(tracer, Tracer):
+        return True
+    return any(getattr(tracer, s) is not getattr(BASE, s) for s in STEPS[solid] | ALWAYS)
+
+
 def fault(
     name: str,
     does: str,
