@@ -9,6 +9,10 @@ verdict      levels by type of solid, conventions, and whether what was asked is
 certificate  all of it as JSON, with the case table and the worst answers
 again        failing rows asked again, each alone: whether an answer depends on those before
 diagnosis    what the failures have in common, and where the answers belie the hello
+cover        the fewest faults that explain the most failures, and what chance would explain
+alike        answers compared: whether two are one but for roundings, and of what kind one is
+signatures   what failing answers may have in common without a known fault
+naming       how well faults are named: subjects whose faults are known, diagnosed
 known        a file of known failures, and how a run compares with it
 environment  the tool to the byte, versions and machine
 """

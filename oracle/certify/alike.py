@@ -28,7 +28,7 @@ KINDS: tuple[Kind, ...] = get_args(Kind)
 
 
 @dataclass(frozen=True, slots=True)
-class Mode:
+class Manner:
     """How a client answers, as one of its claims shows."""
 
     like: Claim
@@ -113,5 +113,5 @@ def agrees(grade: Grade, said: Claim | None) -> bool:
     mine, other = numbers(grade.said), numbers(said)
     if not close(mine, other, grade.judge.format):
         return False
-    right = numbers(Mode(grade.said).claim(grade.row.expected) or grade.said)
+    right = numbers(Manner(grade.said).claim(grade.row.expected) or grade.said)
     return kind(said) == "nan" or CLOSER * apart(mine, other) <= apart(mine, right)

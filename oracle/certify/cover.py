@@ -20,7 +20,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from math import log2
 
-from raycert.oracle.certify.alike import Kind
+from raycert.oracle.certify.alike import KINDS, Kind
 from raycert.oracle.certify.grading import Grade
 
 LEAST = 5
@@ -36,7 +36,7 @@ NUMBERS = 8.0
 
 
 @dataclass(frozen=True)
-class Suspect:
+class Explanation:
     """What may explain failures, their places in the list of those shown as `rows`.
 
     Against a fault speak `failed`, the failures that it would fail too, with the kind of its
@@ -59,20 +59,27 @@ class Suspect:
 
 @dataclass(frozen=True)
 class Failures:
-    """The kinds of the failing answers, and how many rows could fail so, by kind."""
+    """The failures shown: the kinds of their answers, and whether a miss is wrong there.
+
+    `passing` counts the rows that pass, and `seen` those of them where a miss would be wrong.
+    """
 
     kinds: Sequence[Kind]
-    could: Mapping[Kind, float]
+    wants: Sequence[bool]
+    passing: float
+    seen: float
 
     def rates(self, left: frozenset[int]) -> dict[Kind, float]:
         """Return how often a row fails by chance with an answer of a kind that a fault gives."""
-        counts = Counter(self.kinds[i] for i in left)
-        rates = {k: min(counts[k] / max(self.could[k], 1), HALF) for k in self.could}
-        place = min(len(left) / max(self.could["place"], 1), HALF)
-        return {**rates, "numbers": rates["numbers"] / NUMBERS, "place": place}
+        counts, rows = Counter(self.kinds[i] for i in left), self.passing + len(left)
+        counts["numbers"] /= NUMBERS  # type: ignore[assignment]
+        counts["place"] = len(left)
+        could: dict[Kind, float] = dict.fromkeys(KINDS, rows)
+        could["miss"] = self.seen + sum(self.wants[i] for i in left)
+        return {kind: min(counts[kind] / max(could[kind], 1), HALF) for kind in KINDS}
 
 
-def bits(suspect: Suspect, left: frozenset[int], failures: Failures) -> float:
+def bits(suspect: Explanation, left: frozenset[int], failures: Failures) -> float:
     """Return how little it is by chance that a suspect explains what it does of what is left."""
     explained = len(suspect.rows & left)
     if explained < LEAST:
@@ -102,10 +109,10 @@ def divergence(share: float, chance: float) -> float:
 
 
 def cover(
-    suspects: Sequence[Suspect], failures: Failures, everywhere: Mapping[str, int]
-) -> list[Suspect]:
+    suspects: Sequence[Explanation], failures: Failures, everywhere: Mapping[str, int]
+) -> list[Explanation]:
     """Return the suspects that explain failures; of equals, who explains more `everywhere`."""
-    left, picked = frozenset(range(len(failures.kinds))), list[Suspect]()
+    left, picked = frozenset(range(len(failures.kinds))), list[Explanation]()
     while len(left) >= LEAST and suspects:
         proofs = ((round(proof(s, left, failures)), s) for s in suspects)
         proven = [(s.first, weight, everywhere[s.name], s) for weight, s in proofs if weight]
@@ -117,26 +124,32 @@ def cover(
     return picked
 
 
-def proof(suspect: Suspect, left: frozenset[int], failures: Failures) -> float:
+def proof(suspect: Explanation, left: frozenset[int], failures: Failures) -> float:
     """Return the bits of a suspect, 0 where they are too few to name a fault."""
     found = bits(suspect, left, failures)
     return found if found >= PROOF or suspect.telling else 0.0
 
 
-def needed(picked: Sequence[Suspect]) -> list[Suspect]:
-    """Return the suspects without those whose rows, but for a few, the others explain."""
+def needed(picked: Sequence[Explanation]) -> list[Explanation]:
+    """Return the suspects without those whose rows, but for a few, the others explain.
+
+    A signature says less than a fault, and makes none needless.
+    """
     kept = list(picked)
     for suspect in picked:
-        others = frozenset[int]().union(*(s.rows for s in kept if s is not suspect))
-        if len(suspect.rows - others) < LEAST:
+        others = (s for s in kept if s is not suspect and (suspect.telling or not s.telling))
+        if len(suspect.rows.difference(*(s.rows for s in others))) < LEAST:
             kept.remove(suspect)
     return kept
 
 
-def shares(picked: Sequence[Suspect]) -> list[tuple[Suspect, frozenset[int]]]:
-    """Return the suspects with the rows that are left to each, whoever explains most first."""
+def shares(picked: Sequence[Explanation]) -> list[tuple[Explanation, frozenset[int]]]:
+    """Return the suspects with the rows that are left to each, in the order of their number.
+
+    Faults come before signatures there, and who explains most first.
+    """
     found, taken = [], frozenset[int]()
-    for suspect in sorted(picked, key=lambda s: -len(s.rows)):
+    for suspect in sorted(picked, key=lambda s: (s.telling > 0, -len(s.rows))):
         found.append((suspect, suspect.rows - taken))
         taken |= suspect.rows
-    return found
+    return sorted(found, key=lambda x: -len(x[1]))

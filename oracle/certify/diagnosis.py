@@ -17,8 +17,8 @@ from typing import Any, TypeVar
 from raycert.cases.formats import BINARY32, BINARY64
 from raycert.cases.levels import Level
 from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello
-from raycert.oracle.certify.alike import KINDS, Kind, Mode, agrees, fails, kind
-from raycert.oracle.certify.cover import LEAST, Failures, Suspect, cover, needed, shares
+from raycert.oracle.certify.alike import Kind, Manner, agrees, fails, kind
+from raycert.oracle.certify.cover import LEAST, Explanation, Failures, cover, needed, shares
 from raycert.oracle.certify.grading import Grade, usual
 from raycert.oracle.certify.signatures import Signature, signatures
 from raycert.oracle.certify.verdict import Touches, by_solid
@@ -27,8 +27,8 @@ from raycert.oracle.zoo.inhabitants import CATALOGUE
 from raycert.oracle.zoo.matrix import Outcome
 from raycert.oracle.zoo.tracer import Fault, concerns
 
-SEARCHED = 32
-"""Failures that every fault is tried on; others are for those that explain enough of these."""
+SEARCHED = 40
+"""Failures that every fault is tried on; others are for those that explain one of these."""
 SHOWN = 128
 """Failures that the faults are chosen by; what is chosen is counted on all."""
 PASSING = 128
@@ -98,8 +98,8 @@ class Trial:
         return spread(self.failing, SHOWN)
 
     @cached_property
-    def mode(self) -> Mode:
-        return Mode(next((g.said for g in self.grades if g.said is not None), Listed(())))
+    def mode(self) -> Manner:
+        return Manner(next((g.said for g in self.grades if g.said is not None), Listed(())))
 
     def likely(self, everywhere: Mapping[str, int]) -> dict[str, Any]:
         """Return what explains the failures, and how many nothing does."""
@@ -119,7 +119,7 @@ class Trial:
         rest = len(self.failing) - sum(len(rows) for _, rows in found)
         return {**counts, "explained": causes, "unexplained": rest}
 
-    def whole(self, suspect: Suspect) -> Suspect:
+    def whole(self, suspect: Explanation) -> Explanation:
         """Return a suspect with all failures that it explains, not of those shown alone."""
         known = self.shown is self.failing
         rows = suspect.rows if known else self.explained(suspect.explains, self.failing)
@@ -130,31 +130,37 @@ class Trial:
         return frozenset(i for i, g in enumerate(grades) if explains(g))
 
     @cached_property
-    def failures(self) -> Failures:
-        """Return the kinds of the answers shown, and how many rows in their place might be so."""
-        part = len(self.shown) / len(self.failing)
-        could: dict[Kind, float] = dict.fromkeys(KINDS, part * len(self.grades))
-        could["miss"] = part * sum(bool(g.row.expected) for g in self.grades)
-        return Failures([kind(g.said) for g in self.shown], could)
+    def part(self) -> float:
+        """The part of the failures that is shown; of the rows that pass as many are counted."""
+        return len(self.shown) / len(self.failing)
 
     @cached_property
-    def suspects(self) -> list[Suspect]:
+    def failures(self) -> Failures:
+        wants, seen = (
+            [bool(g.row.expected) for g in self.shown],
+            sum(bool(g.row.expected) for g in self.passing),
+        )
+        kinds = [kind(g.said) for g in self.shown]
+        return Failures(kinds, wants, self.part * len(self.passing), self.part * seen)
+
+    @cached_property
+    def suspects(self) -> list[Explanation]:
         """Return the faults and the signatures that explain at least a few of the failures."""
         found = [self.signature(signature) for signature in signatures(self.shown)]
         faults = (self.fault(f) for f in CATALOGUE if concerns(f, self.solid))
         return [s for s in (*faults, *found) if s and len(s.rows) >= LEAST]
 
-    def signature(self, signed: Signature) -> Suspect:
+    def signature(self, signed: Signature) -> Explanation:
         rows = self.explained(signed.holds, self.shown)
-        how = (signed.holds, rows, signed.telling, signed.alone)
-        return Suspect(signed.name, signed.does, signed.origin, *how)
+        words = (signed.name, signed.does, signed.origin)
+        return Explanation(*words, signed.holds, rows, signed.telling, signed.alone)
 
-    def fault(self, fault: Fault) -> Suspect | None:
+    def fault(self, fault: Fault) -> Explanation | None:
         """Return a fault as a suspect; None if it explains too little to be looked at."""
         answer = self.answers(fault)
         explains = self.explains(fault, answer)
         some = spread(self.shown, SEARCHED)
-        if sum(map(explains, some)) * len(self.shown) < LEAST * len(some):
+        if not any(map(explains, some)):
             return None
         rows = self.explained(explains, self.shown)
         said = ((i, g, answer(g)) for i, g in enumerate(self.shown))
@@ -163,11 +169,11 @@ class Trial:
         passed = Counter(
             self.kind(fault, claim) for g in some if fails(claim := answer(g), g, self.level)
         )
-        scale = len(self.passing) / max(len(some), 1) * len(self.shown) / len(self.failing)
+        scale = self.part * len(self.passing) / max(len(some), 1)
         against = {k: n * scale for k, n in passed.items()}
         first = fault.name in self.named or self.by_place(fault)
-        how = {"failed": failed, "passed": against, "first": first}
-        return Suspect(fault.name, fault.does, fault.origin, explains, rows, **how)
+        words = (fault.name, fault.does, fault.origin)
+        return Explanation(*words, explains, rows, first=first, failed=failed, passed=against)
 
     def answers(self, fault: Fault) -> Callable[[Grade], Claim | None]:
         """Return what a fault answers, in the subject's way."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from math import hypot, isfinite, log2
 
 from raycert.cases.formats import BINARY32, BINARY64
-from raycert.oracle.certify.alike import Mode, agrees, kind, numbers
+from raycert.oracle.certify.alike import Manner, agrees, kind, numbers
 from raycert.oracle.certify.grading import Grade
 
 SEEN = "seen in the answers"
@@ -61,7 +61,7 @@ def _ends(grade: Grade) -> list[float]:
 
 def _right(grade: Grade) -> list[float]:
     """Return the finite numbers of the right answer of the same kind."""
-    said = Mode(grade.said).claim(grade.row.expected) if grade.said else None
+    said = Manner(grade.said).claim(grade.row.expected) if grade.said else None
     pairs = numbers(said) if said else ()
     return [x for x in dict.fromkeys(x for pair in pairs for x in pair) if isfinite(x)]
 
@@ -77,7 +77,7 @@ def _times(change: Callable[[float, float], float]) -> Callable[[Grade], bool]:
             pairs = tuple((change(a, length), change(b, length)) for a, b in grade.row.expected)
         except ArithmeticError:
             return False
-        return any(_ends(grade)) and agrees(grade, Mode(grade.said).claim(pairs))
+        return any(_ends(grade)) and agrees(grade, Manner(grade.said).claim(pairs))
 
     return holds
 

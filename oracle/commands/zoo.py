@@ -12,6 +12,8 @@ from rich.table import Table
 from rich.text import Text
 
 from raycert.cases.corpus import Corpus
+from raycert.cases.protocol import ANSWERS, Hello
+from raycert.oracle.certify.naming import TROUBLES, score
 from raycert.oracle.commands.options import (
     FILE,
     FOLDER,
@@ -38,10 +40,15 @@ Examples:
   raycert zoo --fault no-clip --fault diameter    who refuses these
   raycert zoo --json matrix.json
   raycert zoo --write-smoke oracle/zoo/smoke      choose the smoke rows anew
+  raycert zoo --diagnose 50                       how well certify names faults
 
 Exit status: 0 every fault is refused by its home, 1 one is not, 2 bad usage.
 """
 SMOKE = "Choose the rows of certify --smoke, and write their ids there."
+DIAGNOSE = """Take each fault, and N mixtures of two and three, for unknown subjects, and N tracers
+with answers spoilt at random; tell what is named. Each takes a second or two."""
+ROWS = 3
+"""Every so many rows are asked of each subject."""
 OTHERS = 78
 """What the columns before the last take, at most."""
 WIDE = 100
@@ -53,12 +60,22 @@ WIDE = 100
 @golden_option
 @click.option("--json", "out", type=FILE, metavar="FILE")
 @click.option("--write-smoke", "folder", type=FOLDER, help=SMOKE)
-def zoo(names: tuple[str, ...], golden: Path | None, out: Path | None, folder: Path | None) -> None:
+@click.option("--diagnose", "count", type=click.IntRange(min=1), metavar="N", help=DIAGNOSE)
+def zoo(
+    names: tuple[str, ...],
+    golden: Path | None,
+    out: Path | None,
+    folder: Path | None,
+    count: int | None,
+) -> None:
     """Try planted wrong tracers on the golden rows."""
     if unknown := [name for name in names if name not in BY_NAME]:
         raise click.BadParameter(f"no such fault: {', '.join(unknown)}", param_hint="--fault")
     if folder:
         _write_smoke(golden, folder)
+        return
+    if count:
+        _diagnose(read("binary64", golden), count)
         return
     corpus = read("binary64", golden)
     trials, lines = matrix.Trials(corpus.rows, corpus.format), []
@@ -82,6 +99,22 @@ def _write_smoke(golden: Path | None, folder: Path) -> None:
             ids = matrix.chosen(read(precision, golden), advance)
         say(f"{precision}: {len(ids)} rows")
         write_out(folder / f"{precision}.txt", "".join(f"{id}\n" for id in ids))
+
+
+def _diagnose(corpus: Corpus, count: int) -> None:
+    """Print how well the faults of subjects are named, by their trouble and mode of answer."""
+    table = Table(box=None, pad_edge=False, padding=(0, 1))
+    heads = ("trouble", "answers", "subjects", "shown", "named", "all shown", "all named", "others")
+    for head in heads:
+        table.add_column(head, justify="left" if head in heads[:2] else "right")
+    kinds = [(trouble, mode) for mode in ANSWERS[:2] for trouble in TROUBLES]
+    with counting("diagnosing", len(kinds)) as advance:
+        for trouble, mode in kinds:
+            found = score(trouble, count, corpus.rows[::ROWS], Hello("a subject", answers=mode))
+            numbers = (found.subjects, found.showing, found.named, found.all_show, found.all_named)
+            table.add_row(trouble, mode, *map(str, (*numbers, found.other)))
+            advance()
+    screen().print(table)
 
 
 def _table(lines: Sequence[matrix.MatrixLine], width: int) -> Table:

@@ -60,7 +60,7 @@ class ProcessFault:
 FAULTS = (*surfaces.FAULTS, *limits.FAULTS, *lists.FAULTS)
 """The planted faults, by the part of a tracer that they are in."""
 
-BY_NAME: dict[str, Fault] = {fault.name: fault for fault in FAULTS}
+BY_NAME: dict[str, Fault] = {planted.name: planted for planted in FAULTS}
 
 HARNESS = "tests/client/test_replay.py::"
 PINNED = HARNESS + "test_a_fault_is_pinned_on_its_question"
@@ -130,7 +130,8 @@ SOUND: tuple[Sound, ...] = (
           replace(BASE, **PLAIN), "stable"),
     Sound("local-frame", "turns the ray into a frame whose third axis is that of the solid",
           replace(BASE, scale=unscaled, wall=_framed), "stable"),
-    Sound("textbook", TEXTBOOK, replace(BASE, chord=discriminant), "sound", but=tuple((name, "stable") for name in UNSTRESSED)),
+    Sound("textbook", TEXTBOOK, replace(BASE, chord=discriminant), "sound",
+          but=tuple((name, "stable") for name in UNSTRESSED)),
     Sound("extended", "computes in fractions, roots to 240 bits, and rounds at the end",
           replace(BASE, number=fraction, scale=unscaled, wall=_rationally, chord=discriminant,
                   tell=_to_double), "exact"),
