@@ -15,7 +15,7 @@ degenerate input, declared by its name. A half-space has no size, so nothing is 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, fields
 from fractions import Fraction
 from math import inf, isqrt
@@ -202,6 +202,28 @@ def short(number: float | None) -> str:
     if -3 < int(power) < 4:
         return repr(number).removesuffix(".0")
     return f"{form}e{int(power)}"
+
+
+def within(text: str, words: str) -> str:
+    """Return a level, or what is said of one, with the words of the domain beside it.
+
+    >>> within("stable and closed", "starts within 1e6 sizes")
+    'stable and closed, for starts within 1e6 sizes'
+    """
+    return f"{text}, for {words}" if words else text
+
+
+def joint(one: Domain, other: Domain) -> Domain:
+    """Return the domain of what lies within both."""
+    spans: dict[str, list[Bound]] = {}
+    for name, low, high in (*one.bounds(), *other.bounds()):
+        least, most = spans.get(name, (None, None))
+        spans[name] = [_tighter(max, low, least), _tighter(min, high, most)]
+    return Domain(**{name: tuple(x) if name in PAIRS else x[1] for name, x in spans.items()})  # type: ignore[arg-type]
+
+
+def _tighter(of: Callable[[float, float], float], one: Bound, other: Bound) -> Bound:
+    return one if other is None else other if one is None else of(one, other)
 
 
 def read_domain(form: object, path: str = "domain") -> Domain:

@@ -237,24 +237,32 @@ READ: dict[str, Callable[[object], Any]] = {
 """The fields of a hello that are more than a word."""
 
 
-def convention(text: str) -> dict[str, bool]:
-    """Return, for each kind of touch, whether a convention keeps it as a pair.
+def convention(text: str) -> dict[str, bool | None]:
+    """Return, for each kind of touch, whether a convention keeps it as a pair; None for either.
 
-    `closed` keeps all, `regularized` drops all; `closed but tangent rim` and
-    `regularized but start` name the kinds that go the other way.
+    `closed` keeps all, `regularized` drops all, `any` does as it likes; `closed but tangent rim`
+    and `regularized but start` name the kinds that go the other way, `closed but rim any tangent`
+    after that those that may go either way.
 
     >>> convention("closed but rim")["rim"]
     False
     """
     base, _, others = text.partition(" but ")
+    if text == "any":
+        return dict.fromkeys(TOUCHES)
     if base not in ("closed", "regularized"):
-        raise BadLine(f"convention is not closed or regularized [but KIND ...]: {text!r:.60}")
-    names = others.replace(",", " ").split()
+        form = "any, closed or regularized [but KIND ... any KIND ...]"
+        raise BadLine(f"convention is not {form}: {text!r:.60}")
+    others, _, free = f" {others.replace(',', ' ')} ".partition(" any ")
+    names = [*others.split(), *free.split()]
     for name in names:
         if name not in TOUCHES:
             known = ", ".join(TOUCHES)
             raise BadLine(f"convention names an unknown kind of touch: {name!r:.40} ({known})")
-    return {kind: (base == "closed") != (kind in names) for kind in TOUCHES}
+    keeps: dict[str, bool | None] = {
+        kind: (base == "closed") != (kind in names) for kind in TOUCHES
+    }
+    return keeps | dict.fromkeys(free.split())
 
 
 def read_reply(line: bytes, hello: Hello, most: float = inf) -> Reply:

@@ -68,12 +68,14 @@ class Request:
     """The options that draw rows beside it."""
     golden: tuple[str, ...] = ()
     """The options that put another corpus in its place."""
+    hello: tuple[str, ...] = ()
+    """The options that give a hello."""
     overridden: tuple[str, ...] = ()
     """The fields of the hello that were given by others than the target."""
 
     def repeat(self, *extra: str) -> str:
         asked = ("--level", self.level, "--convention", self.convention)
-        options = [*asked, *self.golden, *extra]
+        options = [*asked, *self.hello, *self.golden, *extra]
         return shlex.join(["raycert", "certify", *options, *self.command])
 
     def whole(self) -> str:
@@ -379,7 +381,7 @@ def _band(grade: Grade, level: Level, hello: Hello) -> tuple[Numbers, Numbers]:
     if level in MEASURES:
         accept = grade.accept(level)
         return accept.inner, accept.outer
-    wanted, around = by_convention(grade.row, grade.judge, hello)
+    wanted, around = by_convention(grade.row, grade.judge, hello, grade.said)
     if level == "exact":
         return wanted, wanted
     narrow = ((enter[1], leave[0]) for enter, leave in around)
@@ -392,6 +394,7 @@ def _failure(grade: Grade, repeat: Repeat) -> Json:
         **_case(grade.row),
         "why": grade.row.why,
         "tier": grade.row.tier,
+        "place": grade.place,
         "faults": dict(grade.faults),
         **_answered(grade),
         "reproduce": repeat(grade.row.id),

@@ -239,7 +239,7 @@ def _convention(hello: Hello, grades: Sequence[Grade]) -> Iterator[str]:
     for group in by_solid(grades):
         touches = Touches.of(group.grades)
         if not touches.follows(hello.convention):
-            yield f"{group.name}: the hello says {hello.convention}, the answers are {touches.name}"
+            yield f"{group.name}: the hello says {hello.convention}, the answers are {touches.told}"
 
 
 def _unsupported(grades: Sequence[Grade]) -> Iterator[str]:

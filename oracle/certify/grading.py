@@ -17,7 +17,7 @@ from raycert.cases.degenerate import degenerate
 from raycert.cases.domain import quantities
 from raycert.cases.levels import LEVELS, Level
 from raycert.cases.protocol import Hello, Reply, convention
-from raycert.cases.row import GoldenRow
+from raycert.cases.row import GoldenRow, Span
 from raycert.oracle.client.dialogue import silence
 from raycert.oracle.client.process import Failure
 from raycert.oracle.judge.answer import Claim, Listed, claim
@@ -175,7 +175,7 @@ def _level_fault(
 ) -> str | None:
     if level in MEASURES:
         return said.fault(accept(row, judge, level))
-    wanted, around = by_convention(row, judge, hello)
+    wanted, around = by_convention(row, judge, hello, said)
     return said.is_faithful(wanted, around) if level == "faithful" else said.is_expected(wanted)
 
 
@@ -184,15 +184,25 @@ def accept(row: GoldenRow, judge: Judge, level: Level) -> Accept:
     return judge.accept(level) if judge.tolerance else row.accept[level]
 
 
-def by_convention(row: GoldenRow, judge: Judge, hello: Hello) -> tuple[Numbers, Enclosures]:
+def by_convention(
+    row: GoldenRow, judge: Judge, hello: Hello, said: Claim | None
+) -> tuple[Numbers, Enclosures]:
     """Return the expected list, and the numbers around its ends.
 
-    The touches that the declared convention drops are left out.
+    The touches that the declared convention drops are left out, and of those that it leaves open
+    those that were not answered.
     """
     if len(row.expected) != len(row.intervals):
         return row.expected, judge.enclosures
     keeps = convention(hello.convention)
     spans = zip(row.expected, row.intervals, strict=True)
-    left = [(pair, span) for pair, span in spans if span.touch is None or keeps[span.touch]]
+    left = [(pair, span) for pair, span in spans if _kept(span, keeps, said)]
     enclosures = (tuple((end.down, end.up) for end in (s.enter, s.leave)) for _, s in left)
     return tuple(pair for pair, _ in left), tuple(enclosures)  # type: ignore[arg-type]
+
+
+def _kept(span: Span, keeps: Mapping[str, bool | None], said: Claim | None) -> bool:
+    kept = True if span.touch is None else keeps[span.touch]
+    if kept is None:
+        return said is not None and said.meets(span.enter.down, span.leave.up)
+    return kept

@@ -185,7 +185,7 @@ class Matched:
 
 def failed_level(grade: Grade, asked: Level) -> Level | None:
     """Return the lowest level that a row fails, of those up to the one asked; None if none."""
-    if grade.row.tier == "range":
+    if not usual([grade]):
         return None
     return next((level for level in upto(asked) if grade.fault(level)), None)
 
@@ -254,6 +254,11 @@ class _Run:
         return {g.row.id: g.row for g in usual(self.grades)}
 
     @cached_property
+    def apart(self) -> set[str]:
+        """Return the rows graded that the implementation is not for."""
+        return {g.row.id for g in self.grades if g.place != "inside"}
+
+    @cached_property
     def all(self) -> dict[str, GoldenRow]:
         """Return all rows that could have been asked."""
         return self.known | {g.row.id: g.row for g in self.grades}
@@ -278,7 +283,7 @@ class _Run:
     def against(self) -> dict[str, str]:
         """Return the types of solid that go against the convention asked, and how they go."""
         touches = {group.name: Touches.of(group.grades) for group in by_solid(self.grades)}
-        return {name: t.name for name, t in touches.items() if not t.follows(self.convention)}
+        return {name: t.told for name, t in touches.items() if not t.follows(self.convention)}
 
     def failures(self, expectations: Expectations) -> tuple[list[str], list[str]]:
         """Return the failures that meet an entry, and those that do not."""
@@ -309,7 +314,7 @@ class _Run:
 
     def state(self, entry: Expectation) -> tuple[State, str]:
         about = self._about.get((entry.kind, entry.name), [])
-        counted = [row for row in about if row.tier != "range"]
+        counted = [row for row in about if row.tier != "range" and row.id not in self.apart]
         whole = all(row.id in self.rows for row in counted)
         if entry.kind == "convention":
             if not about:
@@ -318,8 +323,8 @@ class _Run:
                 return "met", ""
             return ("passes", f"is {self.convention}") if whole else ("idle", "")
         if not counted:
-            tier = "is of the range tier, and part of no level"
-            return "unmatched", tier if about else f"no such {entry.kind} is asked"
+            why = "is of the range tier, or not what the target is for: part of no level"
+            return "unmatched", why if about else f"no such {entry.kind} is asked"
         failed = [self.failing[row.id] for row in counted if row.id in self.failing]
         if any(entry.level in (None, level) for level in failed):
             return "met", ""

@@ -28,6 +28,7 @@ from raycert.oracle.certify.measured import measured
 from raycert.oracle.certify.selection import Left, Selection, able, select
 from raycert.oracle.certify.verdict import Verdict, verdict
 from raycert.oracle.client.adapter import adapter_faults
+from raycert.oracle.client.declared import Declared
 from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target, Unusable
 from raycert.oracle.client.process import Failure
 from raycert.oracle.client.replay import Changed, Interrupted, alone, greet
@@ -88,7 +89,10 @@ class Plan:
         """Return what is asked; `command` are the words that name the target to a person."""
         narrowed, drawn = self.selection.options(), self.fresh.options() if self.fresh else ()
         other = () if self.golden == GOLDEN else ("--golden", str(self.golden))
-        return Request(self.level, self.convention, tuple(command), narrowed, drawn, other)
+        asked = (self.level, self.convention, tuple(command), narrowed, drawn, other)
+        if not isinstance(self.target, Declared):
+            return Request(*asked)
+        return Request(*asked, ("--hello", self.target.file), tuple(self.target.fields))
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,7 +213,8 @@ def conduct(prepared: Prepared, watch: Watch | None = None) -> Result:
             "state": again.form(),
         },
     )
-    found = verdict(grades, plan.level, plan.convention)
+    words = prepared.hello.domain.words()
+    found = verdict(grades, plan.level, plan.convention, words)
     found = replace(found, reasons=(*found.reasons, *again.reasons))
     return Result(prepared, grades, ran, found, answers.changed)
 

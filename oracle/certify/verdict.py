@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from itertools import takewhile
 from math import frexp
 
+from raycert.cases.domain import within
 from raycert.cases.levels import LEVELS, Level, upto
 from raycert.cases.model import leaves, lengths, type_of
 from raycert.cases.protocol import TOUCHES, convention
@@ -64,25 +65,31 @@ class Touches:
 
     @property
     def name(self) -> str:
-        """Return the convention that the answers follow, or what keeps them from following one."""
+        """Return the narrowest convention that the answers follow, as it can be declared."""
         if not self.kept:
             return "not tested"
+        mixed, kept, dropped = list[str](), list[str](), list[str]()
+        for kind, (n, of) in self.kept.items():
+            (mixed if 0 < n < of else kept if n else dropped).append(kind)
+        if not kept and not dropped:
+            return "any"
+        few, base = (dropped, "closed") if len(dropped) <= len(kept) else (kept, "regularized")
+        but = " ".join((*few, *(["any", *mixed] if mixed else [])))
+        return f"{base} but {but}" if but else base
+
+    @property
+    def told(self) -> str:
+        """Return the convention, and how many were kept of the kinds that go either way."""
         mixed = [f"{k} {n} of {of} kept" for k, (n, of) in self.kept.items() if 0 < n < of]
-        if mixed:
-            return "none: " + ", ".join(mixed)
-        dropped = [kind for kind, (n, _) in self.kept.items() if not n]
-        if not dropped:
-            return "closed"
-        others = [kind for kind in self.kept if kind not in dropped]
-        if not others:
-            return "regularized"
-        few, base = (dropped, "closed") if len(dropped) <= len(others) else (others, "regularized")
-        return f"{base} but {' '.join(few)}"
+        return self.name + (f" ({', '.join(mixed)})" if mixed else "")
 
     def follows(self, wanted: str) -> bool:
         """Whether the answers follow a convention, on every kind that was tested."""
         keeps = convention(wanted)
-        return all(n == (of if keeps[kind] else 0) for kind, (n, of) in self.kept.items())
+        return all(
+            keeps[kind] is None or n == (of if keeps[kind] else 0)
+            for kind, (n, of) in self.kept.items()
+        )
 
 
 USUAL = 64
@@ -131,8 +138,12 @@ class Group:
         return held[-1] if held else None
 
     def worst(self) -> Grade:
-        """Return the grade to look at first: the lowest level failed, then k, then ulps."""
-        return self.grades[gravest(self.grades)]
+        """Return the grade to look at first: the lowest level failed, then k, then ulps.
+
+        One inside the domain, if there are any.
+        """
+        grades = inside(self.grades) or self.grades
+        return grades[gravest(grades)]
 
 
 def gravest(grades: Sequence[Grade]) -> int:
@@ -200,26 +211,33 @@ class Verdict:
     reasons: tuple[str, ...]
 
 
-def verdict(grades: Sequence[Grade], level: Level, wanted: str) -> Verdict:
-    """Return the verdict on a run: every solid type tested reaches the level and the convention."""
+def verdict(grades: Sequence[Grade], level: Level, wanted: str, domain: str = "") -> Verdict:
+    """Return the verdict on a run: every solid type tested reaches the level and the convention.
+
+    `domain` are the words of the one that is declared.
+    """
     if not any(g.counts(level) for g in usual(grades)):
         return Verdict(False, ("nothing was tested",))
     reasons = []
     for group in by_solid(grades):
         if lowest := next((low for low in upto(level) if not group.tally(low).granted), None):
-            reasons.append(_refusal(group, lowest))
+            reasons.append(_refusal(group, lowest, domain))
         touches = Touches.of(group.grades)
         if not touches.follows(wanted):
-            reasons.append(f"{group.name}: convention is {touches.name}, not {wanted}")
+            reasons.append(f"{group.name}: convention is {touches.told}, not {wanted}")
     return Verdict(not reasons, tuple(reasons))
 
 
-def _refusal(group: Group, level: Level) -> str:
-    tally = group.tally(level)
+def _refusal(group: Group, level: Level, domain: str) -> str:
+    tally, granted = group.tally(level), group.granted()
+    asked = within(level, domain)
     if not tally.failed:
-        return f"{group.name}: no row decides {level}"
+        return f"{group.name}: no row decides {asked}"
     families = by_family(g for g in usual(group.grades) if g.fault(level))
     names = ", ".join(f"{f.name} ({len(f.grades)})" for f in families[:6])
     more = f" and {len(families) - 6} more" if len(families) > 6 else ""
     of = tally.passed + tally.failed
-    return f"{group.name}: {level} fails on {tally.failed} of {of} rows, in {names}{more}"
+    held = f"granted {granted}; " if granted else ""
+    refused = f", {tally.refused} of them refused" if tally.refused else ""
+    fails = f"fails on {tally.failed} of {of} rows{refused}"
+    return f"{group.name}: {held}{asked}{',' if domain else ''} {fails}, in {names}{more}"

@@ -15,16 +15,17 @@ not the next is a number of the format.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, Context
 from fractions import Fraction
 from math import inf, ldexp, log2
 from typing import Any, NamedTuple
 
-from raycert.cases.domain import PAIRS, QUANTITIES, Domain, quantities
+from raycert.cases.domain import PAIRS, QUANTITIES, Domain, joint, quantities, read_domain
 from raycert.cases.levels import Level, upto
 from raycert.oracle.certify.grading import Grade, counting
+from raycert.oracle.judge.levels import MEASURES
 
 MOST = 20_000
 """Steps of the search."""
@@ -279,3 +280,23 @@ def _domain(bounds: Sequence[float]) -> Domain:
         found.setdefault(flank.quantity, []).append(None if x == inf else abs(x))
     pairs: dict[str, Any] = {name: tuple(x) if len(x) > 1 else x[0] for name, x in found.items()}
     return Domain(**pairs)
+
+
+def writable(certificate: Mapping[str, Any]) -> tuple[dict[str, Any], list[str]]:
+    """Return the fields of a hello with the domain in which all solids are granted that can be.
+
+    It is that for the level asked, for `stable` where a higher one is, within what was declared.
+    Then a sentence for each solid of which no domain is granted.
+    """
+    asked = certificate["asked"]["level"]
+    level = asked if asked in MEASURES else "stable"
+    domain, without = read_domain(certificate["domain"]["declared"]), []
+    for name, solid in certificate["solids"].items():
+        found = solid["measured"].get(level)
+        if found and found["domain"] is not None:
+            domain = joint(domain, read_domain(found["domain"]))
+        elif level in solid["measured"]:
+            failed = found["ordinary"]["failed"] if found else 0
+            why = f"fails on {failed} ordinary cases" if failed else f"has no row that is {level}"
+            without.append(f"{name} {why}: it is granted {level} in no domain")
+    return {"domain": domain.form()}, without

@@ -70,6 +70,8 @@ Examples:
   raycert certify --smoke -- ./my_tracer             a look, in a second
   raycert certify my_tracer:intersect --seed 7       500 cases nobody has seen
   raycert certify --family far-deep -- ./my_tracer   a part, not a certificate
+  raycert certify --write-domain hello.json -- ./my_tracer
+  raycert certify --hello hello.json -- ./my_tracer  for what it says it is for
 
 \b
 Exit status: 0 granted, or accepted with --expect; 1 not granted; 2 bad usage or
@@ -92,8 +94,12 @@ def report_options(function: Function) -> Function:
     "--convention",
     default="closed",
     show_default=True,
-    help="closed, regularized, or either with exceptions: 'closed but rim start'.",
+    help="closed, regularized, any, or with exceptions: 'closed but rim any tangent'.",
 )
+@click.option(
+    "--hello", type=KNOWN_FILE, help="Fields of the hello that hold instead (JSON, TOML)."
+)
+@click.option("--write-domain", type=FILE, help="Write the measured domain, as such a hello.")
 @solid_option
 @tier_option
 @family_option
@@ -118,8 +124,9 @@ def report_options(function: Function) -> Function:
 def certify(target: tuple[str, ...], **options: Any) -> None:
     """Grade TARGET on the golden cases, print the verdict, write the certificate.
 
-    A level is granted to a type of solid if every row that decides it passes. What TARGET does not
-    declare is not sent, and listed as not tested. Nothing else is left out.
+    One run grades all levels; --level is the one that the exit status is for. A level is granted to
+    a type of solid if every row that decides it passes, of those within the declared domain. What
+    TARGET does not declare is not sent, and listed as not tested. Nothing else is left out.
     """
     from raycert.oracle.certify.known import write
     from raycert.oracle.reports.reading import verdict
@@ -138,6 +145,8 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     written = [str(kept.out)] if kept and kept.write(form) else []
     if options["record"]:
         write_out(options["record"], write(result.recorded(expected)))
+    if options["write_domain"]:
+        _write_domain(options["write_domain"], form)
     written += write_reports(form, _wanted(options))
     with writing("standard output"):
         say(f"certificate: {' '.join(written)}" if kept or written else PART)
@@ -153,6 +162,7 @@ def _place(plan: Plan, words: tuple[str, ...], options: dict[str, Any]) -> Place
     found = place(plan, words, options)
     named = {f"--{form}": options[form] for form in REPORTS}
     named |= {"--out": found and found.out, "--write-expectations": options["record"]}
+    named |= {"--write-domain": options["write_domain"]}
     check_distinct(named)
     check_record(options)
     return found
@@ -175,7 +185,7 @@ def _plan(target: tuple[str, ...], options: dict[str, Any]) -> Plan:
         )
     seed = options["seed"]
     return Plan(
-        aim(target),
+        _declared(aim(target), options["hello"]),
         options["level"],
         options["convention"],
         Selection(**{name: options[name] for name in NARROWED}, shard=shard),
@@ -184,6 +194,25 @@ def _plan(target: tuple[str, ...], options: dict[str, Any]) -> Plan:
         None if seed is None else Fresh(seed, options["fresh"] or COUNT),
         options["fail_fast"],
     )
+
+
+def _declared(target: Target, hello: Path | None) -> Target:
+    """Return the target, with what a file declares of it."""
+    from raycert.oracle.client.declared import Declared, read_declared
+
+    return Declared(target, read_declared(hello), str(hello)) if hello else target
+
+
+def _write_domain(out: Path, certificate: dict[str, Any]) -> None:
+    """Write the widest domain in which all is granted that can be; say what cannot."""
+    import json
+
+    from raycert.oracle.certify.widest import writable
+
+    fields, without = writable(certificate)
+    for line in without:
+        say(f"raycert: --write-domain: {line}", err=True)
+    write_out(out, json.dumps(fields, indent=1) + "\n")
 
 
 def _expectations(path: Path | None) -> Expectations | None:

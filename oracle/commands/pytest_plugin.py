@@ -181,10 +181,13 @@ class Campaign:
 
     def _shown(self, grade: Grade, level: Level) -> str:
         """Return what a person needs to see of a failure, with the command that repeats it."""
+        from raycert.cases.domain import within
+
         words = shlex.split(self.session.config.getoption("--raycert"))
         fresh = self.plan.fresh.options() if self.plan.fresh else ()
         repeat = ("raycert", "certify", "--level", self.plan.level, *fresh, "--id", grade.row.id)
-        lines = [grade.row.why, f"{level}: {grade.fault(level)}"]
+        level_said = within(level, self.prepared.hello.domain.words())
+        lines = [grade.row.why, f"{level_said}: {grade.fault(level)}"]
         if grade.answer is not None:
             lines.append(f"answered {[list(pair) for pair in grade.answer]}")
         lines.append(f"expected {[list(pair) for pair in grade.row.expected]}")

@@ -132,7 +132,9 @@ def _in_this_process(tracer: Intersect, name: str, plan: Plan) -> Result:
     ran = Ran(restarts=0, notes=(), seconds=round(time.monotonic() - began, 3))
     known = tuple(able(corpus.rows, hello))
     prepared = Prepared(plan, hello, corpus, tuple(rows), left, known)
-    return Result(prepared, grades, ran, verdict(grades, plan.level, plan.convention))
+    return Result(
+        prepared, grades, ran, verdict(grades, plan.level, plan.convention, hello.domain.words())
+    )
 
 
 def _reply(tracer: Intersect, row: GoldenRow) -> Reply:

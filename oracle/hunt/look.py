@@ -132,7 +132,7 @@ class Looker:
         touches = (touch(interval, judge.solid, judge.ray) for interval in judge.exact)
         name = next(filter(None, touches), None)
         kept = said.keeps_touch(judge.expected) if name else None
-        if name is None or kept is None or kept == convention(wanted)[name]:
+        if name is None or kept is None or convention(wanted)[name] in (None, kept):
             return None
         how = "kept" if kept else "dropped"
         return Flaw("convention", f"touch {how}", f"a touch ({name}) is {how}")

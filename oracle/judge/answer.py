@@ -53,15 +53,21 @@ class Claim(Protocol):
     def keeps_touch(self, wanted: Numbers) -> bool | None:
         """Whether it kept the touches that are the whole of a list; None if it cannot tell."""
 
+    def meets(self, down: float, up: float) -> bool:
+        """Whether it has something between two numbers."""
+
 
 def claim(reply: Reply, hello: Hello) -> Claim:
-    """Return what a reply claims, -0 as 0."""
+    """Return what a reply claims, -0 as 0; a first hit where answers are endless is a miss."""
+    endless = inf if hello.infinity is None else hello.infinity
     if hello.answers == "any":
         return YesNo(bool(reply.hit))
     if hello.answers == "first":
         t = reply.first
-        return First(None if t is None else t + 0.0, hello.from_inside)
-    return Listed(tuple((a + 0.0, b + 0.0) for a, b in reply.intervals or ()))
+        far = t is None or (hello.infinity is not None and t >= endless)
+        return First(None if t is None or far else t + 0.0, hello.from_inside)
+    pairs = ((a + 0.0, inf if b >= endless else b + 0.0) for a, b in reply.intervals or ())
+    return Listed(tuple(pairs))
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,6 +103,9 @@ class Listed(Claim):
 
     def keeps_touch(self, wanted: Numbers) -> bool | None:
         return bool(self.pairs)
+
+    def meets(self, down: float, up: float) -> bool:
+        return any(a <= up and down <= b for a, b in self.pairs)
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,6 +166,9 @@ class First(Claim):
             return None
         return self.t is not None
 
+    def meets(self, down: float, up: float) -> bool:
+        return self.t is not None and down <= self.t <= up
+
 
 @dataclass(frozen=True, slots=True)
 class YesNo(Claim):
@@ -187,6 +199,9 @@ class YesNo(Claim):
         return 0.0 if self.hit == bool(judge.expected) else inf
 
     def keeps_touch(self, wanted: Numbers) -> bool | None:
+        return self.hit
+
+    def meets(self, down: float, up: float) -> bool:
         return self.hit
 
 

@@ -63,7 +63,7 @@ def _suite(name: str, tests: Iterable[Test], properties: Mapping[str, str] | Non
 def _properties(certificate: Json) -> dict[str, str]:
     corpus, tool = certificate["corpus"], certificate["tool"]
     return {
-        "level": certificate["asked"]["level"],
+        "level": reading.level_asked(certificate),
         "convention": clean(certificate["asked"]["convention"]),
         "corpus": f"{corpus['version']} {corpus['precision']} {corpus['manifest_sha256']}",
         "tool": f"{tool['name']} {tool['version']} {tool['sha256']}",
@@ -71,25 +71,25 @@ def _properties(certificate: Json) -> dict[str, str]:
 
 
 def _families(certificate: Json, solid: str) -> Iterator[Test]:
-    level = certificate["asked"]["level"]
+    level, asked = certificate["asked"]["level"], reading.level_asked(certificate)
     expectations = certificate["expectations"] or {"expected": []}
     expected = set(expectations["expected"])
     failures = reading.by_family(reading.failing(certificate))
     for family in certificate["families"]:
         if family["solid"] != solid:
             continue
-        name = f"{family['family']} [{level}]"
+        name = f"{family['family']} [{asked}]"
         found = failures.get((solid, family["family"]), [])
         new = [failed for failed in found if failed["id"] not in expected]
         if new:
-            message = f"{level} fails on {len(new)} of {count(family['rows'], 'row')}"
+            message = f"{asked} fails on {len(new)} of {count(family['rows'], 'row')}"
             yield Test(name, message, level, _listed(certificate, new))
         elif found:
             file = clean(expectations["file"])
             yield Test(name, f"{count(len(found), 'expected failure')}: {file}")
         else:
             passed = family["levels"][level]["passed"]
-            yield Test(name, "" if passed else f"no row decides {level}")
+            yield Test(name, "" if passed else f"no row decides {asked}")
 
 
 def _listed(certificate: Json, failures: list[Json]) -> str:

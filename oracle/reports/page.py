@@ -48,7 +48,7 @@ def page(certificate: Json) -> str:
 
 
 def _verdict(certificate: Json) -> Json:
-    say = ["verdict", "asked", "subject", "likely", "notes", "left_out", "windows"]
+    say = ["verdict", "asked", "level_asked", "subject", "likely", "notes", "left_out", "windows"]
     return {
         **{name: getattr(reading, name)(certificate) for name in say},
         "within": reading.levels_asked(certificate),

@@ -14,7 +14,7 @@ from importlib.resources import files
 from math import isfinite
 from typing import Any, Literal
 
-from raycert.cases.domain import read_tolerance
+from raycert.cases.domain import read_tolerance, within
 from raycert.cases.levels import upto
 from raycert.cases.model import Refused
 from raycert.oracle.certify.certificate import CERTIFICATE_VERSION
@@ -75,7 +75,8 @@ def verdict(certificate: Json) -> Ruling:
         "interrupted": f"is not granted {what}: the run was interrupted",
     }[state]
     reasons = [clean(reason) for reason in certificate["reasons"]]
-    return Ruling(state, headline, (*reasons, *surprises(certificate)))
+    beyond = limits(certificate) if state == "refused" else []
+    return Ruling(state, headline, (*reasons, *beyond, *surprises(certificate)))
 
 
 def _state(certificate: Json) -> State:
@@ -95,10 +96,54 @@ def asked(certificate: Json) -> str:
     level, wanted = certificate["asked"]["level"], certificate["asked"]["convention"]
     tested = {solid["convention"] for solid in certificate["solids"].values()} - {"not tested"}
     what = f"{level} and {clean(wanted)}" if tested else f"{level}, convention not tested"
-    domain = certificate["domain"]["words"]
-    what += f", for {domain}" if domain else ""
+    what = within(what, certificate["domain"]["words"])
     tolerance = read_tolerance(certificate["subject"]["tolerance"]).words()
     return what + (f", faces moved by a tolerance of {tolerance}" if tolerance else "")
+
+
+def level_asked(certificate: Json) -> str:
+    """Return the level with the domain beside it: `stable, for starts within 1e6 sizes`."""
+    return within(certificate["asked"]["level"], certificate["domain"]["words"])
+
+
+def limits(certificate: Json) -> list[str]:
+    """Return, for each solid and level that is not granted, where it would be, or that it fails."""
+    found: dict[tuple[str, str], list[str]] = {}
+    for name, solid in certificate["solids"].items():
+        for level, measured in solid["measured"].items():
+            if measured:
+                found.setdefault((name, _limit(measured)), []).append(level)
+    return [f"{name}: {' and '.join(levels)}{words}" for (name, words), levels in found.items()]
+
+
+def _limit(measured: Json) -> str:
+    """Return what completes: sound ..."""
+    ordinary = measured["ordinary"]
+    if measured["domain"] is None:
+        cases = count(ordinary["failed"], "ordinary case")
+        return f" in no domain: fails on {cases}, such as {ordinary['rows'][0]}"
+    more = "" if measured["exhaustive"] else " (a wider one may be)"
+    first = ", ".join(dict.fromkeys(edge["row"] for edge in measured["edges"]))
+    return f" for {measured['words']}{more}; first failure beyond: {first}"
+
+
+def apart(certificate: Json) -> list[str]:
+    """Return how the rows fared that count for no level, and why they do not."""
+    level = "sound" if certificate["asked"]["level"] == "sound" else "stable"
+    lines = []
+    for name, solid in certificate["solids"].items():
+        outside = solid["outside"][level]
+        if outside["rows"]:
+            lines.append(f"{name}: outside the domain: {_fares(outside)}; not counted")
+        for kind, fares in solid["degenerate"].items():
+            what = kind.replace("_", " ")
+            lines.append(f"{name}: {what}, not declared: {_fares(fares)}; not counted")
+    return lines
+
+
+def _fares(fares: Json) -> str:
+    told = [f"{n} {how}" for how, n in fares.items() if how != "rows"]
+    return f"{count(fares['rows'], 'row')}: {', '.join(told)}"
 
 
 def surprises(certificate: Json) -> list[str]:
@@ -130,7 +175,11 @@ def levels_asked(certificate: Json) -> tuple[str, ...]:
 def failing(certificate: Json) -> list[Json]:
     """Return the failures that the verdict is about, in the order of the corpus."""
     level = certificate["asked"]["level"]
-    return [f for f in certificate["failures"] if level in f["faults"] and f["tier"] != "range"]
+    return [
+        f
+        for f in certificate["failures"]
+        if level in f["faults"] and f["tier"] != "range" and f["place"] == "inside"
+    ]
 
 
 def fault(certificate: Json, failed: Json, most: int = 160) -> str:
@@ -226,7 +275,7 @@ def likely(certificate: Json) -> list[str]:
 def beside(certificate: Json, note: str = "") -> list[str]:
     """Return what is to be known beside the verdict: what is left out, windows, notes."""
     said = [note + line for line in notes(certificate)]
-    return [*left_out(certificate), *windows(certificate), *said]
+    return [*left_out(certificate), *apart(certificate), *windows(certificate), *said]
 
 
 # Is it a certificate at all?

@@ -92,7 +92,7 @@ def _fails(levels: Json) -> Text:
 
 
 def _failures(certificate: Json, console: Console) -> None:
-    found, level = reading.failing(certificate), certificate["asked"]["level"]
+    found, level = reading.failing(certificate), reading.level_asked(certificate)
     for failed in found[:SHOWN]:
         why, fault, *rest, repeat = reading.facts(certificate, failed)
         console.print(Text(f"\n{failed['id']}", "bold red"))

@@ -10,7 +10,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from raycert.cases.domain import Tolerance
+from raycert.cases.degenerate import DEGENERACIES
+from raycert.cases.domain import Domain, Tolerance
 from raycert.cases.formats import FORMATS, SPELLINGS, spell
 from raycert.cases.model import SOLIDS, Cylinder, Ray
 from raycert.cases.protocol import (
@@ -47,10 +48,15 @@ HELLOS = st.builds(
     answers=st.sampled_from(ANSWERS),
     solids=st.lists(st.sampled_from(sorted(SOLIDS)), min_size=1, unique=True).map(tuple),
     precision=st.sampled_from(sorted(FORMATS)),
-    convention=st.sampled_from(["closed", "regularized", "closed but rim, cap"]),
+    convention=st.sampled_from(
+        ["closed", "regularized", "closed but rim, cap", "any", "closed but any tangent"]
+    ),
     numbers=st.sampled_from(SPELLINGS),
     tolerance=st.builds(Tolerance, st.floats(0, 1e300), st.floats(0, 1)),
     from_inside=st.sampled_from(FROM_INSIDE),
+    domain=st.builds(Domain, distance=st.none() | st.floats(1e-9, 1e9), size=st.just((None, 7.5))),
+    degenerate=st.sampled_from([(), DEGENERACIES[:1], DEGENERACIES]),
+    infinity=st.none() | st.floats(1, 1e300),
 )
 
 
@@ -119,7 +125,19 @@ DEEP = b"[" * 900 + b"]" * 900
         (line(hello=1, name="x", tolerance=True), "hello.tolerance is not a number"),
         (line(hello=1, name="x", version=2.1), "hello.version is not a string"),
         (line(hello=1, name="x", convention=1), "hello.convention is not a string"),
-        (line(hello=1, name="x", convention="open"), "convention is not closed"),
+        (line(hello=1, name="x", convention="open"), "convention is not any, closed"),
+        (line(hello=1, name="x", convention="any but rim"), "convention is not any, closed"),
+        (line(hello=1, name="x", domain=[]), "hello.domain is not an object"),
+        (line(hello=1, name="x", domain={"far": 1}), "hello.domain.far is not a quantity"),
+        (line(hello=1, name="x", domain={"size": [2, 1]}), "hello.domain.size has its low bound"),
+        (line(hello=1, name="x", domain={"distance": 0}), "hello.domain.distance is not a number"),
+        (line(hello=1, name="x", degenerate=["point"]), "hello.degenerate is not a list of zero_d"),
+        (line(hello=1, name="x", degenerate="zero_radius"), "hello.degenerate is not a list"),
+        (line(hello=1, name="x", degenerate=[[]]), "hello.degenerate is not a list"),
+        (line(hello=1, name="x", infinity=0), "hello.infinity is not a number > 0"),
+        (line(hello=1, name="x", infinity="inf"), "hello.infinity is not a number"),
+        (line(hello=1, name="x", tolerance={"size": 1}), "hello.tolerance.size is not a field"),
+        (line(hello=1, name="x", tolerance={"relative": -1}), "hello.tolerance.relative is not a"),
         (line(hello=1, name="x", convention="closed but pole"), "unknown kind of touch: 'pole'"),
         (b'{"hello": 1, "name": "x", "solids": [' + DEEP + b"]}", "unknown type|nested too deep"),
     ],
@@ -146,6 +164,11 @@ def test_conventions():
         "tangent": False,
         "rim": False,
     }
+    assert convention("any") == dict.fromkeys(TOUCHES)
+    assert convention("closed but any tangent") == dict.fromkeys(TOUCHES, True) | {"tangent": None}
+    assert convention("regularized but rim, any start cap") == {
+        "tangent": False, "wall": False, "cap": None, "rim": True, "start": None,
+    }  # fmt: skip
     assert convention("regularized but start") == dict.fromkeys(TOUCHES, False) | {"start": True}
 
 

@@ -204,6 +204,19 @@ BAD_HELLOS = [
     line(hello=1, name="x", tolerance=math.inf),
     line(hello=1, name="x", tolerance=10**400),
     line(hello=1, name="x", from_inside="all"),
+    line(hello=1, name="x", convention="any but rim"),
+    line(hello=1, name="x", convention="closed but anyrim"),
+    line(hello=1, name="x", domain=[]),
+    line(hello=1, name="x", domain={"far": 1}),
+    line(hello=1, name="x", domain={"size": 1}),
+    line(hello=1, name="x", domain={"size": [1]}),
+    line(hello=1, name="x", domain={"distance": 0}),
+    line(hello=1, name="x", domain={"distance": True}),
+    line(hello=1, name="x", degenerate=["point"]),
+    line(hello=1, name="x", infinity=0),
+    line(hello=1, name="x", infinity="inf"),
+    line(hello=1, name="x", tolerance={"size": 1}),
+    line(hello=1, name="x", tolerance={"relative": -1}),
     b"[1]",
 ]
 
@@ -218,7 +231,8 @@ def test_a_bad_hello_is_refused_by_schema_and_reader(text: bytes) -> None:
 @pytest.mark.parametrize(
     "text",
     ["closed", "regularized", "closed but rim", "closed but rim, cap", "regularized but  start ",
-     "closed but tangent wall cap rim start", "closed but ,"],
+     "closed but tangent wall cap rim start", "closed but ,", "any", "closed but any tangent",
+     "regularized but rim, any start cap", "closed but any"],
 )  # fmt: skip
 def test_a_convention_is_taken_by_schema_and_reader(text: str) -> None:
     assert convention(text)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import cache
 from math import inf, isinf, nan
 
@@ -11,11 +12,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from raycert.cases.levels import LEVELS
+from raycert.cases.model import HalfSpace, Ray, Sphere
 from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello, Reply, first
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.verdict import Touches, verdict
-from raycert.oracle.judge.answer import First, YesNo, first_fault
+from raycert.oracle.judge.answer import First, YesNo, claim, first_fault
+from raycert.oracle.judge.levels import Judge
 from shared.corpus import golden
 
 Lists = tuple[tuple[float, float], ...]
@@ -196,3 +199,18 @@ def test_from_inside_no_hit_tells_nothing_of_touches() -> None:
     assert First(None, "zero").keeps_touch(((0.0, 0.0),)) is False
     assert First(None, "miss").keeps_touch(((1.0, 1.0),)) is False
     assert YesNo(True).keeps_touch(((0.0, 0.0),)) is True
+
+
+def test_what_is_endless_may_be_a_number() -> None:
+    """From `infinity` on a leave is endless and a first hit is none; below it, nothing changes."""
+    half, miss = HalfSpace((0, 0, 0), (0, 0, 1)), Sphere((9, 9, 9), 1)
+    ray = Ray((0, 0, 5), (0, 0, -1))
+    declared = Hello("x", infinity=1e7)
+    for leave, right in ((1e7, True), (2e30, True), (9e6, False), (inf, True)):
+        said = claim(Reply("", intervals=((5.0, leave),)), declared)
+        assert (said.malformed(Judge(half, ray, tier="lattice")) is None) == right
+    first_hit = replace(declared, answers="first")
+    assert claim(Reply("", first=1e8), first_hit) == claim(Reply("", first=None), first_hit)
+    judge = Judge(miss, ray)
+    assert claim(Reply("", first=1e8), first_hit).fault(judge.accept("sound")) is None
+    assert claim(Reply("", first=1e8), hello("first", "zero")).fault(judge.accept("sound"))

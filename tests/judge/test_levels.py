@@ -389,3 +389,16 @@ def test_a_tolerance_by_hand() -> None:
     assert Judge(CAN, ACROSS, BINARY64, "generic", Tolerance(0.0625)).holds("stable", answer)
     assert not Judge(CAN, ACROSS, BINARY64, "generic", Tolerance(0.06)).holds("sound", answer)
     assert Fraction(0.0625) * 16 == 1
+
+
+def test_a_relative_tolerance_by_hand() -> None:
+    """1/16 of the radius at the wall, 1/16 of the thickness at a cap: 1 and 4."""
+    down = Ray((0, 0, -2), (0, 0, 1))
+    near = Judge(CAN, ACROSS, BINARY64, "generic", Tolerance(0.0, 0.0625))
+    assert near.holds("stable", [(2.0625, 3.9375)])
+    assert not near.holds("sound", [(2.07, 3.9375)])
+    big = Judge(
+        Cylinder((0, 0, 0), (0, 0, 64), 32), down, BINARY64, "generic", Tolerance(0.0, 0.0625)
+    )
+    assert big.holds("stable", [(6.0, 62.0)])
+    assert not big.holds("sound", [(6.1, 62.0)])

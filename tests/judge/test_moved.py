@@ -78,39 +78,50 @@ def under_root(a: Fraction, b: Fraction, square: Fraction) -> bool:
     return (a * a <= b * b * square) if a > 0 else (a * a >= b * b * square)
 
 
-def within(leaf: Solid, ray: Ray, t: Fraction, delta: Fraction, slack: Fraction) -> bool:
-    """Tell whether f(t) is in a leaf whose faces moved outward by delta (inward if negative)."""
+NONE = Fraction(0)
+
+
+def within(
+    leaf: Solid, ray: Ray, t: Fraction, delta: Fraction, slack: Fraction, part: Fraction = NONE
+) -> bool:
+    """Tell whether f(t) is in a leaf whose faces moved outward by delta (inward if negative).
+
+    They move by a part of the leaf's own size besides: of its radius, or of its thickness.
+    """
     x = at(ray, t)
     match leaf:
         case HalfSpace(point, normal):
             n = exact(normal)
             return under_root(dot(minus(x, exact(point)), n), delta, dot(n, n))
         case Sphere(center, radius):
-            m, moved = minus(x, exact(center)), Fraction(radius) + delta
+            m, moved = minus(x, exact(center)), Fraction(radius) * (1 + part) + delta
             return moved >= 0 and dot(m, m) <= moved * moved + slack
         case Slab(p, q):
             w = minus(exact(q), exact(p))
+            by = delta + part * big_norm(w)
             return all(
-                under_root(dot(minus(x, exact(end)), n), delta, dot(w, w))
+                under_root(dot(minus(x, exact(end)), n), by, dot(w, w))
                 for end, n in ((p, minus(exact(p), exact(q))), (q, w))
             )
         case InfiniteCylinder(p, q, radius):
-            w, y, moved = minus(exact(q), exact(p)), minus(x, exact(p)), Fraction(radius) + delta
+            w, y = minus(exact(q), exact(p)), minus(x, exact(p))
+            moved = Fraction(radius) * (1 + part) + delta
             distance = dot(y, y) - dot(y, w) ** 2 / dot(w, w)
             return moved >= 0 and distance <= moved * moved + slack
     assert isinstance(leaf, Cylinder)
     tube = InfiniteCylinder(leaf.p, leaf.q, leaf.radius)
     slab = Slab(leaf.p, leaf.q)
-    return within(tube, ray, t, delta, slack) and within(slab, ray, t, delta, slack)
+    return all(within(part_of, ray, t, delta, slack, part) for part_of in (tube, slab))
 
 
 def truth(
-    leaf: Solid, ray: Ray, t: Fraction, ku: Fraction, measure: str, sigma: int, tolerance: Fraction
+    leaf: Solid, ray: Ray, t: Fraction, ku: Fraction, measure: str, sigma: int, tolerance: Tolerance
 ) -> bool:
     """Tell whether t is in the moved list, by the contract's table of measures."""
     s = size(leaf, ray, t)
     slack = ku * s * s / 4 if measure == "squared" else Fraction(0)
-    return within(leaf, ray, t, sigma * (ku * s + tolerance), sigma * slack)
+    by, part = Fraction(tolerance.absolute), Fraction(tolerance.relative)
+    return within(leaf, ray, t, sigma * (ku * s + by), sigma * slack, sigma * part)
 
 
 def unit(fmt: Format) -> Fraction:
@@ -125,7 +136,7 @@ def unit(fmt: Format) -> Fraction:
     formats,
     measures,
     sigmas,
-    st.sampled_from([0.0, 0.125]),
+    st.sampled_from([Tolerance(), Tolerance(0.125), Tolerance(0.0, 0.3), Tolerance(1.0, 2.0**-40)]),
     st.sets(st.fractions(0, 12, max_denominator=12), max_size=6),
 )
 def test_a_moved_leaf_is_what_its_definition_says(
@@ -135,14 +146,14 @@ def test_a_moved_leaf_is_what_its_definition_says(
     fmt: Format,
     measure: str,
     sigma: int,
-    tolerance: float,
+    tolerance: Tolerance,
     more: set[Fraction],
 ) -> None:
     k = Step.at(step)
-    moved = Movable(leaf, ray, fmt, Tolerance(tolerance)).by_k(k, measure, sigma)  # type: ignore[arg-type]
+    moved = Movable(leaf, ray, fmt, tolerance).by_k(k, measure, sigma)  # type: ignore[arg-type]
     ku = Fraction(float(k)) * unit(fmt)
     for t in samples(moved) | samples(trace(leaf, ray).intervals) | more:
-        found = truth(leaf, ray, t, ku, measure, sigma, Fraction(tolerance))
+        found = truth(leaf, ray, t, ku, measure, sigma, tolerance)
         assert member(t, moved) == found, t
 
 
@@ -166,7 +177,7 @@ def test_a_moved_tree_is_what_its_moved_leaves_say(
             case Difference(of):
                 first = member_of(of[0], t, way)
                 return first and not any(member_of(x, t, -way) for x in of[1:])
-        return truth(part, ray, t, ku, measure, way, Fraction(0))
+        return truth(part, ray, t, ku, measure, way, Tolerance())
 
     ends = [
         e
