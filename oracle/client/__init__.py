@@ -7,6 +7,7 @@ dialogue     questions to a target, answers in order; a program that speaks the 
 inprocess    code that is loaded into a process of ours, and how questions travel there
 worker       what runs in that process: code loaded, called and understood
 target       what the words of a target mean
+declared     a target of which a file declares other things than it says
 replay       a run over many questions, and what is asked again after a failure
 misread      what an adapter answers that misreads a question
 smoke        easy cases, and which of them fail
