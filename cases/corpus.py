@@ -94,11 +94,12 @@ def decode_rows(data: bytes, fmt: Format, name: str) -> Iterator[GoldenRow]:
         yield _decode_row(line, fmt, f"{name}:{number}")
 
 
-def _decode_row(line: bytes, fmt: Format, place: str) -> GoldenRow:
+def _decode_row(line: bytes, fmt: Format, place: str, ours: bool = False) -> GoldenRow:
+    """Return the row on a line. Of a line of `ours` the spelling is known: we have written it."""
     try:
         form = json.loads(line)
         row = row_of(form, fmt)
-        if encode_rows((row,), fmt)[:-1] != line:
+        if not ours and encode_rows((row,), fmt)[:-1] != line:
             read_row(form, fmt)
             raise ValueError("is not spelled as a row is written: keys, their order, spaces")
     except (ValueError, RecursionError) as error:
@@ -180,7 +181,8 @@ def read_corpus(
         path = folder / name
         for number, line in enumerate(golden_file(folder, name, entry).splitlines(), 1):
             heading = _heading(line, unwanted)
-            row = heading or _decode_row(line, FORMATS[precision], f"{path}:{number}")
+            place = f"{path}:{number}"
+            row = heading or _decode_row(line, FORMATS[precision], place, folder == GOLDEN)
             if row.id in rows:
                 raise BadFile(f"{path}: the id {row.id} occurs twice")
             if name != f"{precision}/{row.family}.jsonl":

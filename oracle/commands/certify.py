@@ -240,10 +240,12 @@ def _run(plan: Plan) -> Result:
 
 def _standing(name: str, target: Target, options: dict[str, Any]) -> dict[str, Any]:
     """Measure where the target sits, as far as that is asked."""
+    standing: dict[str, Any] = {"stress": None, "bench": None}
+    if not any(options.get(option) for option in standing):
+        return standing
     from raycert.oracle.client.dialogue import Unusable
     from raycert.oracle.plots.standing import in_time, under_stress
 
-    standing: dict[str, Any] = {"stress": None, "bench": None}
     for option, measure in (("stress", under_stress), ("bench", in_time)):
         if options.get(option):
             try:

@@ -13,7 +13,6 @@ from dataclasses import dataclass, replace
 from itertools import islice
 
 from raycert.cases.case import Case, Family
-from raycert.cases.draw import jittered, sampled
 from raycert.cases.formats import Format
 from raycert.cases.model import SOLIDS, Tree, types
 from raycert.cases.row import GoldenRow
@@ -58,6 +57,8 @@ def possible(solids: Collection[str]) -> bool:
 
 def fresh_cases(seed: int, fmt: Format, solids: Collection[str]) -> Iterator[Case]:
     """Yield cases without end, all of whose solids are among these."""
+    from raycert.cases.draw import jittered, sampled  # loads all families: only who draws pays
+
     declared, number = set(solids), 0
     while True:
         scene = replace(sampled(number, seed, fmt), slug=f"scene-{number}")
