@@ -8,6 +8,7 @@ widest       the widest domain in which a level would be granted
 verdict      levels by type of solid, conventions, and whether what was asked is granted
 certificate  all of it as JSON, with the case table and the worst answers
 again        failing rows asked again, each alone: whether an answer depends on those before
+habits       what is done to degenerate inputs, in words
 diagnosis    what the failures have in common, and where the answers belie the hello
 cover        the fewest faults that explain the most failures, and what chance would explain
 alike        answers compared: whether two are one but for roundings, and of what kind one is

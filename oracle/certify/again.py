@@ -77,26 +77,30 @@ class Again:
 
 
 def sample(grades: Sequence[Grade], level: Level) -> list[Grade]:
-    """Return failing rows in the order to ask them: of every solid, every kind, every family.
+    """Return failing rows in the order to ask them: of every solid each kind once, then families.
 
-    Kinds are wrong answers and each reason of a refusal. Which of a family is told by the hash of
-    its id, so that no place in a run is preferred.
+    Kinds are wrong answers and each sort of refusal. Which of a family is told by the hash of its
+    id, so that no place in a run is preferred.
     """
     left = sorted(failing(grades, level), key=lambda g: sha256(g.row.id.encode()).digest())
     groups = {g.row.id: _groups(g, level) for g in left}
-    times, chosen = Counter[tuple[str, ...]](), list[Grade]()
+    times, chosen = Counter[str](), list[Grade]()
+
+    def rank(solid: str, kind: str, family: str) -> tuple[int, int, int]:
+        return times[solid], min(times[kind], 1), times[family]
+
     while left and len(chosen) < MOST:
-        best = min(left, key=lambda g: [times[group] for group in groups[g.row.id]])
+        best = min(left, key=lambda g: rank(*groups[g.row.id]))
         left.remove(best)
         chosen.append(best)
         times.update(groups[best.row.id])
     return chosen
 
 
-def _groups(grade: Grade, level: Level) -> list[tuple[str, ...]]:
+def _groups(grade: Grade, level: Level) -> tuple[str, str, str]:
     solid = type_of(grade.row.solid)
-    kind = "" if grade.said else str(grade.fault(level))
-    return [(solid,), (solid, kind), (solid, kind, grade.row.family)]
+    sort = "" if grade.said else ":".join(str(grade.fault(level)).split(":")[:2])
+    return solid, f"{solid} that is {sort}", f"{solid} of {grade.row.family}"
 
 
 def failing(grades: Sequence[Grade], level: Level) -> list[Grade]:

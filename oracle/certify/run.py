@@ -23,6 +23,7 @@ from raycert.oracle.certify.certificate import Json, Ran, Request, certificate
 from raycert.oracle.certify.diagnosis import contradictions, diagnose
 from raycert.oracle.certify.environment import environment
 from raycert.oracle.certify.grading import Grade, grade
+from raycert.oracle.certify.habits import habits
 from raycert.oracle.certify.known import Expectations, Matched, failed_level, match, record
 from raycert.oracle.certify.measured import measured
 from raycert.oracle.certify.selection import Left, Selection, able, select
@@ -200,7 +201,8 @@ def conduct(prepared: Prepared, watch: Watch | None = None) -> Result:
             answers.add(prepared.rows[start : start + size])
     grades = tuple(answers.grades)
     again = answers.ask_again((time.monotonic() - clock) * PART)
-    said = dict.fromkeys((*answers.notes, *again.notes, *contradictions(prepared.hello, grades)))
+    seen = *again.notes, *habits(grades), *contradictions(prepared.hello, grades)
+    said = dict.fromkeys((*answers.notes, *seen))
     ran = Ran(
         restarts=answers.restarts,
         notes=tuple(said),
