@@ -178,7 +178,9 @@ def _results(request: Request, hello: Hello, grades: Sequence[Grade]) -> Json:
         ],
         "table": case_table(grades, level),
         "worst": worst(grades, level, hello, repeat),
-        "failures": [_failure(g, repeat) for g in grades if g.faults],
+        "failures": [
+            _failure(g, kind(g, next(iter(g.faults)), hello), repeat) for g in grades if g.faults
+        ],
     }
 
 
@@ -346,8 +348,7 @@ def _spread(kinds: Sequence[tuple[Grade, str]], most: int) -> list[tuple[Grade, 
 def _pictured(g: Grade, name: str, level: Level, hello: Hello, repeat: Repeat) -> Json:
     inner, outer = _band(g, level, hello)
     return {
-        **_failure(g, repeat),
-        "kind": name,
+        **_failure(g, name, repeat),
         "rows": list(g.row.rows),
         "exact": [
             {"enter": _end(s.enter), "leave": _end(s.leave), "touch": s.touch}
@@ -370,10 +371,13 @@ def kind(grade: Grade, level: Level, hello: Hello) -> str:
         return fault.partition(":")[0]
     if grade.said.malformed(grade.judge):
         return "malformed"
-    if grade.answer is None:
-        return "wrong"
     inner, outer = _band(grade, level, hello)
-    return how(outer, inner, grade.answer)
+    if grade.answer is not None:
+        return how(outer, inner, grade.answer)
+    match grade.said:
+        case First(t=None) | YesNo(hit=False):
+            return "missed"
+    return "wrong end" if outer else "phantom"
 
 
 def _band(grade: Grade, level: Level, hello: Hello) -> tuple[Numbers, Numbers]:
@@ -389,12 +393,13 @@ def _band(grade: Grade, level: Level, hello: Hello) -> tuple[Numbers, Numbers]:
     return inner, tuple((enter[0], leave[1]) for enter, leave in around)
 
 
-def _failure(grade: Grade, repeat: Repeat) -> Json:
+def _failure(grade: Grade, name: str, repeat: Repeat) -> Json:
     return {
         **_case(grade.row),
         "why": grade.row.why,
         "tier": grade.row.tier,
         "place": grade.place,
+        "kind": name,
         "faults": dict(grade.faults),
         **_answered(grade),
         "reproduce": repeat(grade.row.id),

@@ -84,7 +84,12 @@ def report_options(function: Function) -> Function:
     for form, text in reversed(REPORTS.items()):
         option = click.option(f"--{form}", type=FILE_OR_DASH, metavar="FILE", help=text)
         function = option(function)
-    return function
+    return verbose_option(function)
+
+
+verbose_option = click.option(
+    "--verbose", is_flag=True, help="Print the worst answer of each family, and all notes, too."
+)
 
 
 @click.command(epilog=EPILOG)
@@ -141,7 +146,7 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     form = result.form(words, known)
     asked = {} if result.ran.interrupted else options
     form["standing"] = _standing(result.prepared.hello.name, aim(target), asked)
-    _print(form)
+    _print(form, options["verbose"])
     written = [str(kept.out)] if kept and kept.write(form) else []
     if options["record"]:
         write_out(options["record"], write(result.recorded(expected)))
@@ -274,12 +279,12 @@ def write_reports(certificate: dict[str, Any], reports: dict[str, str]) -> list[
     ]
 
 
-def _print(certificate: dict[str, Any]) -> None:
+def _print(certificate: dict[str, Any], verbose: bool) -> None:
     from raycert.oracle.reports.screen import screen
     from raycert.oracle.reports.terminal import report as show
 
     with writing("standard output"):
-        show(certificate, screen(width=None if sys.stdout.isatty() else 120))
+        show(certificate, screen(width=None if sys.stdout.isatty() else 100), verbose)
 
 
 REPORT_EPILOG = """\b
@@ -295,7 +300,7 @@ Exit status: 0 done, 2 the file is no certificate, or bad usage, 4 a report coul
 @click.command(epilog=REPORT_EPILOG)
 @click.argument("certificate", type=KNOWN_FILE)
 @report_options
-def report(certificate: Path, **options: str | None) -> None:
+def report(certificate: Path, verbose: bool, **options: str | None) -> None:
     """Write the reports of a certificate: the same as certify's own options do.
 
     CERTIFICATE is the JSON file that certify wrote. Without an option the report for a terminal is
@@ -310,4 +315,4 @@ def report(certificate: Path, **options: str | None) -> None:
     if reports:
         write_reports(form, reports)
     else:
-        _print(form)
+        _print(form, verbose)

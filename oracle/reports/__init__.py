@@ -2,7 +2,9 @@
 
 foreign     the text of others, as it may be shown: on terminals, in Markdown, XML and pages
 screen      what tables and colours are printed on
+inputs      the numbers of a case, in decimal, as code, and in hex
 reading     what a certificate says, said once for every report
+findings    what was found beside the verdict: domains, likely faults, kinds of failures
 terminal    the certificate on a terminal
 markdown    the certificate for the summary of a CI job
 junit       the certificate as JUnit XML

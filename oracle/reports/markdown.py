@@ -9,9 +9,10 @@ from collections.abc import Iterator
 from html import escape
 
 from raycert.cases.levels import LEVELS
-from raycert.oracle.reports import reading
+from raycert.oracle.reports import findings, reading
 from raycert.oracle.reports.foreign import code, legible, plain
-from raycert.oracle.reports.reading import Json, count, intervals
+from raycert.oracle.reports.inputs import intervals, said
+from raycert.oracle.reports.reading import Json, count
 
 FAMILIES, ROWS = 20, 5
 """How many failing families are shown, and how many rows of each."""
@@ -27,7 +28,7 @@ def markdown(certificate: Json) -> str:
         f"{found.headline}",
         "",
         *(f"- {code(reason)}" for reason in found.reasons),
-        *(f"- **likely fault:** {code(line)}" for line in reading.likely(certificate)),
+        *(f"- **likely fault:** {code(line)}" for line in findings.likely(certificate)),
         "",
         *_solids(certificate),
         "",
@@ -78,7 +79,7 @@ def _row(certificate: Json, failed: Json) -> tuple[str, ...]:
     return (
         f"- {code(failed['id'])}: {plain(failed['why'])}",
         f"  - {code(reading.fault(certificate, failed))}",
-        f"  - answer {code(reading.said(failed))}, expected {code(intervals(failed['expected']))}",
+        f"  - answer {code(said(failed))}, expected {code(intervals(failed['expected']))}",
         f"  - {code(failed['reproduce'])}",
     )
 

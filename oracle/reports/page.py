@@ -14,12 +14,13 @@ from typing import Any
 from raycert.cases.domain import read_tolerance
 from raycert.cases.levels import LEVELS
 from raycert.cases.table import PROBLEM_1, PROBLEM_2
-from raycert.oracle.reports import reading
+from raycert.oracle.reports import findings, reading
 from raycert.oracle.reports.foreign import clean, legible
+from raycert.oracle.reports.inputs import intervals, said
 from raycert.oracle.reports.junit import junit
 from raycert.oracle.reports.markdown import markdown
 from raycert.oracle.reports.picture import pictures
-from raycert.oracle.reports.reading import Json, count, intervals, number
+from raycert.oracle.reports.reading import Json, count, number
 
 LISTED, AT_MOST = 100, 4000
 """How many failing rows of a family are listed, and how many in all."""
@@ -48,8 +49,9 @@ def page(certificate: Json) -> str:
 
 
 def _verdict(certificate: Json) -> Json:
-    say = ["verdict", "asked", "level_asked", "subject", "likely", "notes", "left_out", "windows"]
+    say = ["verdict", "asked", "level_asked", "subject", "notes", "left_out", "windows"]
     return {
+        "likely": findings.likely(certificate),
         **{name: getattr(reading, name)(certificate) for name in say},
         "within": reading.levels_asked(certificate),
         "reproduce": clean(certificate["reproduce"], 2000),
@@ -93,7 +95,7 @@ def _worst(certificate: Json, shown: Json) -> Json:
         "kind": shown["kind"],
         "why": clean(shown["why"]),
         "fault": reading.fault(certificate, shown, 300) if failed else "",
-        "answer": clean(reading.said(shown), 400),
+        "answer": clean(said(shown), 400),
         "expected": intervals(shown["expected"]),
         "errors": [number(shown[name]) for name in ("strict_k", "squared_k", "ulps")],
         "reproduce": clean(shown["reproduce"], 2000),

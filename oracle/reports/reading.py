@@ -7,24 +7,28 @@ until `foreign` has seen it.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
 from math import isfinite
 from typing import Any, Literal
 
+from raycert.cases.degenerate import DEGENERACIES
 from raycert.cases.domain import read_tolerance, within
 from raycert.cases.levels import upto
 from raycert.cases.model import Refused
 from raycert.oracle.certify.certificate import CERTIFICATE_VERSION
-from raycert.oracle.reports.foreign import ELLIPSIS, clean
+from raycert.oracle.reports.foreign import clean
+from raycert.oracle.reports.inputs import case_json, intervals, said
 
 Json = dict[str, Any]
 State = Literal["granted", "part", "accepted", "refused", "interrupted"]
 Mark = Literal["passed", "failed", "open"]
 
-SHORT = 60
+SHORT, LINE = 60, 4000
+"""Characters of a name, and of a command."""
 
 
 def count(n: int, noun: str) -> str:
@@ -37,19 +41,6 @@ def number(x: float | None) -> str:
     if x is None or not isfinite(x):
         return "inf"
     return f"{x:.3g}" if x < 1e5 else f"{x:.0e}"
-
-
-def decimal(text: str) -> str:
-    """Return a hex float in decimal, the shortest that round-trips."""
-    return repr(float.fromhex(text))
-
-
-def intervals(pairs: Sequence[Sequence[str]] | None, most: int = 6) -> str:
-    """Return a list of pairs of hex floats in decimal, cut after `most` pairs."""
-    if pairs is None:
-        return "none"
-    shown = [f"[{decimal(a)}, {decimal(b)}]" for a, b in pairs[:most]]
-    return "[" + ", ".join(shown + [ELLIPSIS] * (len(pairs) > most)) + "]"
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,11 +103,11 @@ def limits(certificate: Json) -> list[str]:
     for name, solid in certificate["solids"].items():
         for level, measured in solid["measured"].items():
             if measured:
-                found.setdefault((name, _limit(measured)), []).append(level)
+                found.setdefault((name, limit(measured)), []).append(level)
     return [f"{name}: {' and '.join(levels)}{words}" for (name, words), levels in found.items()]
 
 
-def _limit(measured: Json) -> str:
+def limit(measured: Json) -> str:
     """Return what completes: sound ..."""
     ordinary = measured["ordinary"]
     if measured["domain"] is None:
@@ -127,23 +118,31 @@ def _limit(measured: Json) -> str:
     return f" for {measured['words']}{more}; first failure beyond: {first}"
 
 
-def apart(certificate: Json) -> list[str]:
-    """Return how the rows fared that count for no level, and why they do not."""
+def apart(certificate: Json, together: bool = False) -> list[str]:
+    """Return how the rows fared that count for no level, and why they do not.
+
+    For each type of solid, or all of them `together`.
+    """
     level = "sound" if certificate["asked"]["level"] == "sound" else "stable"
+    solids = certificate["solids"]
+    groups = {"": list(solids.values())} if together else {f"{x}: ": [solids[x]] for x in solids}
     lines = []
-    for name, solid in certificate["solids"].items():
-        outside = solid["outside"][level]
-        if outside["rows"]:
-            lines.append(f"{name}: outside the domain: {_fares(outside)}; not counted")
-        for kind, fares in solid["degenerate"].items():
-            what = kind.replace("_", " ")
-            lines.append(f"{name}: {what}, not declared: {_fares(fares)}; not counted")
-    return lines
+    for of, some in groups.items():
+        lines.append(_fares(f"{of}outside the domain", [s["outside"][level] for s in some]))
+        for kind in DEGENERACIES:
+            fares = [s["degenerate"][kind] for s in some if kind in s["degenerate"]]
+            lines.append(_fares(f"{of}{kind.replace('_', ' ')}, not declared", fares))
+    return [line for line in lines if line]
 
 
-def _fares(fares: Json) -> str:
-    told = [f"{n} {how}" for how, n in fares.items() if how != "rows"]
-    return f"{count(fares['rows'], 'row')}: {', '.join(told)}"
+def _fares(what: str, fares: list[Json]) -> str:
+    """Return how rows fared, in a sentence; empty where there are none."""
+    total = Counter[str]()
+    for one in fares:
+        total.update(one)
+    told = [f"{n} {how}" for how, n in total.items() if how != "rows"]
+    rows = total["rows"]
+    return f"{what}: {count(rows, 'row')}: {', '.join(told)}; not counted" if rows else ""
 
 
 def surprises(certificate: Json) -> list[str]:
@@ -186,14 +185,17 @@ def fault(certificate: Json, failed: Json, most: int = 160) -> str:
     return clean(failed["faults"][certificate["asked"]["level"]], most)
 
 
-def facts(certificate: Json, failed: Json) -> tuple[str, str, str, str, str]:
-    """Return why a row is there, its fault, what is answered, expected, and how to repeat it."""
+def facts(certificate: Json, failed: Json) -> tuple[str, ...]:
+    """Return what a row is: why it is there, its fault, answers, inputs, and two commands."""
     return (
         clean(failed["why"]),
         fault(certificate, failed),
         f"answer   {said(failed)}",
         f"expected {intervals(failed['expected'])}",
-        f"repeat   {clean(failed['reproduce'], 2000)}",
+        f"inputs   {case_json(failed)}",
+        f"in hex   {case_json(failed, hexed=True)}",
+        f"explain  {clean(failed['explain'], LINE)}",
+        f"repeat   {clean(failed['reproduce'], LINE)}",
     )
 
 
@@ -212,16 +214,6 @@ def by_family(failures: list[Json]) -> dict[tuple[str, str], list[Json]]:
 def mark(tally: Json) -> Mark:
     """Return whether rows failed, passed, or none of them decides."""
     return "failed" if tally["failed"] else "passed" if tally["passed"] else "open"
-
-
-def said(shown: Json) -> str:
-    """Return what was answered to a row, in decimal."""
-    reply = shown["reply"]
-    if reply is None:
-        return intervals(shown["answer"])
-    if "hit" in reply:
-        return f"hit: {str(reply['hit']).lower()}"
-    return f"first: {'null' if reply['first'] is None else repr(float.fromhex(reply['first']))}"
 
 
 def left_out(certificate: Json) -> list[str]:
@@ -260,16 +252,6 @@ def notes(certificate: Json) -> list[str]:
     run = certificate["run"]
     restarts = [f"the target was restarted {run['restarts']} times"] if run["restarts"] else []
     return restarts + [clean(note) for note in run["notes"]]
-
-
-def likely(certificate: Json) -> list[str]:
-    """Return the likely faults, a sentence each."""
-    return [
-        f"on {cause['rows']} of {found['failures']} failures of {found['solid']} your answers are "
-        f"those of a tracer that {cause['does']} ({cause['fault']}; {cause['origin']})"
-        for found in certificate["likely"]
-        for cause in found["explained"]
-    ]
 
 
 def beside(certificate: Json, note: str = "") -> list[str]:

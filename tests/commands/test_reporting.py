@@ -43,8 +43,8 @@ def test_a_dash_is_standard_output_and_no_option_the_terminal(certificate: Path)
         ("{", "not JSON"),
         ("[" * 10**5, "nested"),
         ("[]", "certificate: is missing"),
-        ('{"certificate": 9}', "certificate: is not of version 1"),
-        ('{"certificate": 1}', "certificate: must contain"),
+        ('{"certificate": 9}', "certificate: is not of version 2"),
+        ('{"certificate": 2}', "certificate: must contain"),
         ("\x00\xff", "not UTF-8: byte 0xff"),
     ],
 )

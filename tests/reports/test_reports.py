@@ -13,6 +13,7 @@ from rich.console import Console
 import shared.certificates as made_up
 from raycert.cases.model import Refused
 from raycert.oracle.reports.foreign import clean
+from raycert.oracle.reports.inputs import intervals
 from raycert.oracle.reports.junit import junit
 from raycert.oracle.reports.markdown import code, markdown
 from raycert.oracle.reports.page import WRITERS, page
@@ -20,7 +21,6 @@ from raycert.oracle.reports.reading import (
     check,
     count,
     failing,
-    intervals,
     number,
     verdict,
 )

@@ -25,7 +25,7 @@ HOSTILE = (
     "\ud800 \x1b[31m ``` | ]]> [/red] e" + "\u0301" * 50
 )
 STEP = 60
-LIKELY = [
+LIKELY: list[Json] = [
     {
         "solid": "cylinder",
         "level": "sound",
@@ -122,6 +122,33 @@ def good() -> Json:
 @cache
 def bad() -> Json:
     return made(planted("caps-forgotten"))
+
+
+@cache
+def much() -> Json:
+    """Return a certificate with something of all that a run can find."""
+    form: Json = json.loads(json.dumps(bad()))
+    union = {**LIKELY[0], "solid": "union", "unexplained": 0}
+    union["explained"] = [LIKELY[0]["explained"][0] | {"rows": 9}]
+    form["likely"] = [*LIKELY, union]
+    ball = {"type": "sphere", "center": [1.0, 2.0, 3.0], "radius": 2.0}
+    first = {"id": "easy/through", "solid": ball, "ray": TRIED, "answer": "[]", "expected": "no"}
+    easy = {"solid": "sphere", "failed": 3, "of": 4, "first": first}
+    form["easy"] = [easy | {"misread": "it ignores the center"}, easy | {"misread": None}]
+    edge = {"quantity": "distance", "side": "high", "bound": 1000.0, "row": "sphere-far/far"}
+    words = {"domain": {"distance": 1000.0}, "words": "starts within 1000 sizes"}
+    counts = {"rows": 752, "left": 123, "edges": [edge | {"fault": "too far"}]}
+    ordinary = {"ordinary": {"failed": 0, "rows": []}, "exhaustive": True}
+    sphere = form["solids"]["sphere"]
+    sphere["measured"] = {"sound": words | counts | ordinary}
+    sphere["outside"]["stable"] = {"rows": 312, "right": 250, "refused": 40, "wrong": 22}
+    for solid in form["solids"].values():
+        solid["degenerate"] = {}
+    sphere["degenerate"]["zero_direction"] = {"rows": 16, "answered": 0, "refused": 15, "wrong": 1}
+    return form
+
+
+TRIED = {"origin": [-7.0, 2.0, 3.0], "direction": [4.0, 0.0, 0.0]}
 
 
 @cache
