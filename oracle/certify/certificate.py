@@ -178,9 +178,7 @@ def _results(request: Request, hello: Hello, grades: Sequence[Grade]) -> Json:
         ],
         "table": case_table(grades, level),
         "worst": worst(grades, level, hello, repeat),
-        "failures": [
-            _failure(g, kind(g, next(iter(g.faults)), hello), repeat) for g in grades if g.faults
-        ],
+        "failures": [_failure(g, kind(g, _lowest(g), hello), repeat) for g in grades if g.faults],
     }
 
 
@@ -360,6 +358,11 @@ def _pictured(g: Grade, name: str, level: Level, hello: Hello, repeat: Repeat) -
 
 def _end(end: End) -> Json:
     return {"digits": end.digits, "kind": end.kind, "faces": list(end.faces)}
+
+
+def _lowest(grade: Grade) -> Level:
+    """Return the lowest level that a failing grade fails."""
+    return next(level for level in LEVELS if grade.fault(level))
 
 
 def kind(grade: Grade, level: Level, hello: Hello) -> str:

@@ -74,8 +74,7 @@ def causes(certificate: Json) -> list[LikelyFault]:
     for found in _explained(certificate):
         for cause in found["explained"]:
             told.setdefault(cause["fault"], []).append((found, cause))
-    found = [_cause(pairs) for pairs in told.values()]
-    return sorted(found, key=lambda cause: -cause.rows)
+    return sorted(map(_cause, told.values()), key=lambda cause: -cause.rows)
 
 
 def _cause(pairs: list[tuple[Json, Json]]) -> LikelyFault:
