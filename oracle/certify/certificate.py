@@ -214,7 +214,8 @@ def _apart(group: Group, hello: Hello) -> Json:
     """Return how the rows fared that count for no level: outside the domain, and degenerate."""
     outside, degenerate = (counting(group.grades, place) for place in ("outside", "degenerate"))
     kinds = {
-        kind: [g for g in degenerate if kind in undeclared(g.row, hello)] for kind in DEGENERACIES
+        kind: [g for g in degenerate if kind in undeclared(g.row.solid, g.row.ray, hello)]
+        for kind in DEGENERACIES
     }
     return {
         "outside": {level: _fares("right", outside, level) for level in MEASURES},

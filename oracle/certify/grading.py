@@ -16,6 +16,7 @@ from raycert.cases.accept import Accept, Numbers
 from raycert.cases.degenerate import degenerate
 from raycert.cases.domain import quantities
 from raycert.cases.levels import LEVELS, Level
+from raycert.cases.model import Ray, Solid
 from raycert.cases.protocol import Hello, Reply, convention
 from raycert.cases.row import GoldenRow, Span
 from raycert.oracle.client.dialogue import silence
@@ -135,7 +136,7 @@ def usual(grades: Iterable[Grade]) -> list[Grade]:
 
 def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
     judge = Judge(row.solid, row.ray, hello.format, row.tier, hello.tolerance)
-    quiet, place = silence(outcome), place_of(row, hello)
+    quiet, place = silence(outcome), place_of(row.solid, row.ray, hello)
     said = None if isinstance(outcome, Failure) or quiet else claim(outcome, hello)
     whole = ": ".join(quiet or ()) if said is None else said.malformed(judge)
     if whole is not None:
@@ -155,17 +156,17 @@ def grade(row: GoldenRow, outcome: Reply | Failure, hello: Hello) -> Grade:
     return Grade(row, said, faults, judge, decides, beside, place)
 
 
-def undeclared(row: GoldenRow, hello: Hello) -> tuple[str, ...]:
-    """Return the kinds of degenerate input that a row is of, and that are not declared."""
-    kinds = degenerate(row.solid, row.ray)
+def undeclared(solid: Solid, ray: Ray, hello: Hello) -> tuple[str, ...]:
+    """Return the kinds of degenerate input that a case is of, and that are not declared."""
+    kinds = degenerate(solid, ray)
     return tuple(kind for kind in kinds if kind not in hello.degenerate)
 
 
-def place_of(row: GoldenRow, hello: Hello) -> Place:
-    """Return where a row lies for what an implementation declares."""
-    if undeclared(row, hello):
+def place_of(solid: Solid, ray: Ray, hello: Hello) -> Place:
+    """Return where a case lies for what an implementation declares."""
+    if undeclared(solid, ray, hello):
         return "degenerate"
-    if hello.domain and not hello.domain.holds(quantities(row.solid, row.ray)):
+    if hello.domain and not hello.domain.holds(quantities(solid, ray)):
         return "outside"
     return "inside"
 

@@ -30,7 +30,7 @@ from raycert.cases.model import (
 from raycert.cases.numbers import Probe, is_usual
 from raycert.cases.protocol import Hello, Reply, convention
 from raycert.cases.row import GoldenRow
-from raycert.oracle.certify.grading import grade
+from raycert.oracle.certify.grading import grade, place_of
 from raycert.oracle.client.dialogue import Outcome, silence
 from raycert.oracle.corpus.golden import golden_row
 from raycert.oracle.exact.faces import touch
@@ -95,9 +95,14 @@ class Looker:
         return "lattice" if on_lattice else "generic"
 
     def wants(self, probe: Probe) -> bool:
-        """Whether a probe is asked: its types are declared and wanted, its numbers usual."""
+        """Whether a probe is asked: declared and wanted, its numbers usual.
+
+        Declared are its types, its degenerate inputs, and a domain that it lies in.
+        """
         names = types(probe.solid)
         if not names <= {*self.solids} & {*self.hello.solids}:
+            return False
+        if place_of(probe.solid, probe.ray, self.hello) != "inside":
             return False
         return self.criterion.far or is_usual(probe, self.hello.format)
 

@@ -65,7 +65,7 @@ def shortsighted(row: GoldenRow) -> Numbers:
 
 def within(grades: tuple[Grade, ...], domain: Domain) -> tuple[Grade, ...]:
     hello = replace(ALL, domain=domain)
-    return tuple(replace(g, place=place_of(g.row, hello)) for g in grades)
+    return tuple(replace(g, place=place_of(g.row.solid, g.row.ray, hello)) for g in grades)
 
 
 def found(grades: tuple[Grade, ...], level: Any) -> Iterator[tuple[Group, Any]]:

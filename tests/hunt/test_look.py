@@ -1,9 +1,11 @@
 """The cheap look says what the grade says, on every kind of answer; and what is no failure."""
 
+from dataclasses import replace
 from math import inf
 
 import pytest
 
+from raycert.cases.domain import Domain
 from raycert.cases.levels import LEVELS
 from raycert.cases.model import HalfSpace, Ray, Sphere, Union
 from raycert.cases.numbers import Probe
@@ -95,6 +97,11 @@ def test_only_declared_and_wanted_types_are_asked():
     assert not Looker(Hello("test", solids=("sphere", "union")), Criterion()).wants(union)
     assert not Looker(HELLO, Criterion(), ("sphere", "union")).wants(union)
     assert Looker(HELLO, Criterion(), ("sphere",)).wants(BALL)
+    resting = BALL._replace(ray=Ray((0, 0, 0), (0, 0, 0)))
+    bold = replace(HELLO, degenerate=("zero_direction",))
+    assert not Looker(HELLO, Criterion()).wants(resting)
+    assert Looker(bold, Criterion()).wants(resting)
+    assert not Looker(replace(HELLO, domain=Domain(size=(None, 1e-9))), Criterion()).wants(BALL)
 
 
 def test_right_is_cheap_and_costs_no_k():
