@@ -268,7 +268,12 @@ def _from_inside(hello: Hello, grades: Sequence[Grade]) -> Iterator[str]:
 
 
 def _fits(grades: Sequence[Grade], mode: FromInside) -> int:
-    firsts = [(g.said, g.row.accept["sound"]) for g in grades if isinstance(g.said, First)]
+    """Return how many answers are those of a mode; of what is negative or NaN no mode is."""
+    firsts = [
+        (g.said, g.row.accept["sound"])
+        for g in grades
+        if isinstance(g.said, First) and not g.said.malformed(g.judge)
+    ]
     return sum(replace(said, from_inside=mode).fault(accept) is None for said, accept in firsts)
 
 

@@ -28,7 +28,7 @@ from raycert.oracle.certify.known import Expectations, Matched, failed_level, ma
 from raycert.oracle.certify.measured import measured
 from raycert.oracle.certify.selection import Left, Selection, able, select
 from raycert.oracle.certify.verdict import Verdict, verdict
-from raycert.oracle.client.adapter import adapter_faults
+from raycert.oracle.client.adapter import adapter_faults, misread
 from raycert.oracle.client.declared import Declared
 from raycert.oracle.client.dialogue import Limits, Outcome, Question, Target, Unusable
 from raycert.oracle.client.process import Failure
@@ -230,11 +230,12 @@ def smoke(plan: Plan, hello: Hello, watch: Watch) -> tuple[list[str], list[Json]
     questions = [case.question for case in cases]
     outcomes = ask(plan.target, questions, soon(plan.limits), hello=hello).outcomes
     said = adapter_faults(cases, outcomes, hello, plan.target)
-    for line in said:
+    found = fallen(cases, outcomes, hello)
+    for line in said or misread(found):
         watch.note(line)
     if cases and all(_unanswered(outcome) for outcome in outcomes.values()):
         raise Unsuitable("none of the easy cases was answered, so nothing was tested")
-    return said, [each.form(hello) for each in fallen(cases, outcomes, hello)]
+    return said, [each.form(hello) for each in found]
 
 
 def _unanswered(outcome: Outcome) -> bool:

@@ -44,8 +44,8 @@ def adapter_faults(
 ) -> list[str]:
     """Return what is wrong with the adapter; nothing if that cannot be said.
 
-    A way to fail is named where more than half of the cases fail in it; what is done to one type of
-    solid, where all its answers show it.
+    A way to fail is named where more than half of the cases fail in it, a refusal where it is that
+    of every case of a type of solid.
     """
     given = [(case, outcomes[id]) for case in asked if (id := case.question.id) in outcomes]
     broken = [outcome for _, outcome in given if isinstance(outcome, Failure)]
@@ -57,8 +57,7 @@ def adapter_faults(
     alike = [*_constant(said), *_late(said)]
     if alike and 2 * wrong > sum(bool(case.truth) for case, _ in said):
         return alike[:1]
-    found = fallen(asked, outcomes, hello)
-    return [*_refusals(asked, found, hello, code), *_misread(found)]
+    return list(_refusals(asked, fallen(asked, outcomes, hello), hello, code))
 
 
 def _constant(said: Sequence[tuple[Easy, Claim]]) -> Iterator[str]:
@@ -85,14 +84,13 @@ def _late(said: Sequence[tuple[Easy, Claim]]) -> Iterator[str]:
         )
 
 
-def _misread(found: Sequence[Fallen]) -> Iterator[str]:
-    """Yield what is done to types of solid, each text once."""
+def misread(found: Sequence[Fallen]) -> list[str]:
+    """Return what is done to types of solid where all answers show it, each text once."""
     texts: dict[str, list[str]] = {}
     for each in found:
         if each.text:
             texts.setdefault(each.text, []).append(each.solid)
-    for text, solids in texts.items():
-        yield f"{', '.join(solids)}: {text}."
+    return [f"{', '.join(solids)}: {text}." for text, solids in texts.items()]
 
 
 # No answers: refused, or not of the form.
@@ -105,9 +103,12 @@ def _refusals(
     refused = [each for each in found if each.refused == each.of]
     if not refused:
         return
-    right = {each.solid for each in found if each.failed == each.of}
-    known = [name for name in _asked_types(asked) if name not in right]
-    names = " and ".join(each.solid for each in refused)
+    failing = {each.solid: each for each in found}
+    answered = [name for name in _asked_types(asked) if failing.get(name) not in refused]
+    right = [name for name in answered if name not in failing]
+    known = right or answered
+    *others, last = (each.solid for each in refused)
+    names = f"{', '.join(others)} and {last}" if others else last
     callable_ = code is not None and code.kind == "callable"
     _, reason = silence(refused[0].outcome) or ("", "")
     seen = f"It {'raises' if callable_ else 'answers'} {cut(reason, 160)!r} on every easy {names}."

@@ -56,6 +56,17 @@ def test_each_mode_from_inside_is_told_from_the_others() -> None:
             assert all(f"are those of {true!r}" in text for text in told)
 
 
+def test_a_negative_answer_is_of_no_mode() -> None:
+    """The t of the line's first hit, behind the start, was once called that of an exit."""
+
+    def say(row: GoldenRow) -> Reply:
+        t = first("zero")(row).first
+        return Reply(row.id, first=-1.5 if t == 0 else t)
+
+    hello = Hello("line", answers="first")
+    assert not [t for t in contradictions(hello, graded(hello, say)) if "from_inside" in t]
+
+
 def test_single_precision_under_a_hello_of_binary64_is_told() -> None:
     hello = Hello("single")
     [told] = contradictions(hello, graded(hello, single))
