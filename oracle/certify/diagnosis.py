@@ -27,11 +27,13 @@ from raycert.oracle.zoo.inhabitants import CATALOGUE
 from raycert.oracle.zoo.matrix import Outcome
 from raycert.oracle.zoo.tracer import Fault, concerns
 
-SEARCHED = 40
+SEARCHED = 24
 """Failures that every fault is tried on; others are for those that explain one of these."""
-SHOWN = 128
+SHOWN = 96
 """Failures that the faults are chosen by; what is chosen is counted on all."""
-PASSING = 128
+EARLY = 400
+"""Rows, the first ones asked, of which a fault that remembers has to explain one."""
+PASSING = 96
 """Rows that pass on which a fault is tried that explains failures."""
 
 
@@ -65,14 +67,30 @@ class Past:
     grades: Sequence[Grade]
     known: dict[str, dict[str, Outcome]] = field(default_factory=dict)
 
+    @cached_property
+    def order(self) -> list[Grade]:
+        """The grades in the order in which the rows are asked."""
+        return sorted(self.grades, key=lambda g: g.row.tier == "range")
+
+    @cached_property
+    def manner(self) -> Manner:
+        return Manner(next((g.said for g in self.grades if g.said is not None), Listed(())))
+
     def answers(self, fault: Fault) -> dict[str, Outcome]:
-        """Return what a fault answers to each row, in the order in which they are asked."""
+        """Return what a fault answers to each row; to none if it explains nothing early."""
         if fault.name not in self.known:
-            order, tracer = sorted(self.grades, key=lambda g: g.row.tier == "range"), fault.make()
-            self.known[fault.name] = {
-                g.row.id: Outcome.of(tracer, g.row, g.judge.format) for g in order
-            }
+            tracer, early, rest = fault.make(), self.order[:EARLY], self.order[EARLY:]
+            known = {g.row.id: Outcome.of(tracer, g.row, g.judge.format) for g in early}
+            if any(self.explains(g, known[g.row.id]) for g in early if g.faults):
+                known |= {g.row.id: Outcome.of(tracer, g.row, g.judge.format) for g in rest}
+            else:
+                known = {}
+            self.known[fault.name] = known
         return self.known[fault.name]
+
+    def explains(self, grade: Grade, outcome: Outcome) -> bool:
+        claim = self.manner.claim(outcome.answer)
+        return agrees(grade, claim) and fails(claim, grade, "stable")
 
 
 @dataclass
@@ -98,8 +116,13 @@ class Trial:
         return spread(self.failing, SHOWN)
 
     @cached_property
-    def mode(self) -> Manner:
-        return Manner(next((g.said for g in self.grades if g.said is not None), Listed(())))
+    def searched(self) -> Sequence[Grade]:
+        """One failure of each family before a second of any: a fault is at home in few."""
+        seen, order = Counter[str](), list[tuple[int, int, Grade]]()
+        for g in self.shown:
+            order.append((seen[g.row.family], len(order), g))
+            seen[g.row.family] += 1
+        return [g for *_, g in sorted(order, key=lambda x: x[:2])[:SEARCHED]]
 
     def likely(self, everywhere: Mapping[str, int]) -> dict[str, Any]:
         """Return what explains the failures, and how many nothing does."""
@@ -157,12 +180,14 @@ class Trial:
 
     def fault(self, fault: Fault) -> Explanation | None:
         """Return a fault as a suspect; None if it explains too little to be looked at."""
+        if fault.stateful and not self.past.answers(fault):
+            return None
         answer = self.answers(fault)
         explains = self.explains(fault, answer)
-        some = spread(self.shown, SEARCHED)
-        if not any(map(explains, some)):
+        if not any(map(explains, self.searched)):
             return None
-        rows = self.explained(explains, self.shown)
+        if len(rows := self.explained(explains, self.shown)) < LEAST:
+            return None
         said = ((i, g, answer(g)) for i, g in enumerate(self.shown))
         failed = {i: self.kind(fault, claim) for i, g, claim in said if fails(claim, g, self.level)}
         some = spread(self.passing, PASSING)
@@ -182,7 +207,7 @@ class Trial:
         def answer(g: Grade) -> Claim | None:
             if g.row.id not in known:
                 known[g.row.id] = Outcome.of(tracer, g.row, g.judge.format)
-            return self.mode.claim(known[g.row.id].answer)
+            return self.past.manner.claim(known[g.row.id].answer)
 
         return answer
 
