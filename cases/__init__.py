@@ -26,6 +26,7 @@ binary32) and is taken as exactly the number it is; -0 is 0.
     flags       what is hard in a case, and where to read of it
     case        a case, and a family of them
     accept      answers between an inner and an outer list of numbers
+    hints       what a message says to do: names that come near, packages to install
     files       the files that somebody gives, read
     row         a golden row and its JSON form
     corpus      the golden files and their manifest

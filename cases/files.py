@@ -1,4 +1,4 @@
-"""Files that somebody gives, read: of bounded size, as strict JSON; a fault names the file.
+"""Files that somebody gives, read: of bounded size, as strict JSON or TOML; a fault names the file.
 
 Whatever is read from disk or from a pipe of the user's goes through here, so that what is refused
 is refused everywhere alike: a BOM, what is no UTF-8, a key that occurs twice, an object nested
@@ -9,6 +9,7 @@ the faults that it finds are told as those of the file.
 from __future__ import annotations
 
 import json
+import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
@@ -95,6 +96,21 @@ def decode_json(data: bytes | str) -> Any:
         raise ValueError(f"is not JSON: {error.msg} ({place})") from None
     except RecursionError:
         raise ValueError(TOO_DEEP) from None
+    if not is_shallow(form):
+        raise ValueError(TOO_DEEP)
+    return form
+
+
+def decode_toml(text: str) -> dict[str, Any]:
+    """Return what TOML says, not too deep. Raises `ValueError`."""
+    try:
+        form = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ValueError(f"is not TOML: {error}") from None
+    except RecursionError:
+        raise ValueError(TOO_DEEP) from None
+    except ValueError:  # of Python, which reads no such decimal
+        raise ValueError("holds an integer of thousands of digits") from None
     if not is_shallow(form):
         raise ValueError(TOO_DEEP)
     return form

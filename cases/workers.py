@@ -9,6 +9,7 @@ import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor
 from contextlib import contextmanager
+from functools import partial
 from multiprocessing import get_context, parent_process, resource_tracker
 from types import FrameType
 from typing import Any, ParamSpec, TypeVar
@@ -24,14 +25,18 @@ class Workers(ProcessPoolExecutor):
     """So many processes of this machine, for work that can be imported there.
 
     A terminal sends its signals to them too, but they are for who waits: workers ignore them. They
-    end with this process, however it ends. Leaving the context drops what is under way.
+    end with this process, however it ends. Leaving the context drops what is under way. Each calls
+    `first`, with the arguments, before all work.
     """
 
-    def __init__(self, count: int) -> None:
+    def __init__(
+        self, count: int, first: Callable[..., object] | None = None, *arguments: object
+    ) -> None:
         with _blocked():
             if os.name == "posix":  # its helper would not survive SIGHUP
                 resource_tracker.ensure_running()
-            super().__init__(count, get_context("spawn"), _begin)
+            begin = partial(_begin, first, *arguments)
+            super().__init__(count, get_context("spawn"), begin)
 
     def submit(
         self,
@@ -68,7 +73,7 @@ def _blocked() -> Iterator[None]:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
-def _begin() -> None:
+def _begin(first: Callable[..., object] | None = None, *arguments: object) -> None:
     """Begin a worker: deaf to a terminal, ended by its parent's word or death."""
     for each in SIGNALS:
         signal.signal(each, signal.SIG_IGN)
@@ -76,6 +81,8 @@ def _begin() -> None:
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
     threading.Thread(target=_end_with_parent, daemon=True).start()
+    if first:
+        first(*arguments)
 
 
 def _end_worker(number: int, _: FrameType | None = None) -> None:

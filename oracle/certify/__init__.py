@@ -15,5 +15,6 @@ alike        answers compared: whether two are one but for roundings, and of wha
 signatures   what failing answers may have in common without a known fault
 naming       how well faults are named: subjects whose faults are known, diagnosed
 known        a file of known failures, and how a run compares with it
+entrants     the targets of a gradebook
 environment  the tool to the byte, versions and machine
 """

@@ -18,13 +18,12 @@ level is above the one asked), else it is wrong: what it is about passes, or is 
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from typing import Any, Literal
 
-from raycert.cases.files import TOO_DEEP, BadFile
+from raycert.cases.files import BadFile, decode_toml
 from raycert.cases.levels import LEVELS, Level, upto
 from raycert.cases.model import SOLIDS, type_of
 from raycert.cases.row import GoldenRow
@@ -79,13 +78,9 @@ class Expectations:
 def read(text: str, file: str = "expectations") -> Expectations:
     """Return the expectations that a TOML text holds. Raises `BadFile`: file, entry and field."""
     try:
-        form = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise BadFile(f"{file}: is not TOML: {error}") from None
-    except RecursionError:
-        raise BadFile(f"{file}: {TOO_DEEP}") from None
-    except ValueError:  # of Python, which reads no such decimal
-        raise BadFile(f"{file}: holds an integer of thousands of digits") from None
+        form = decode_toml(text)
+    except ValueError as error:
+        raise BadFile(f"{file}: {error}") from None
     for name in form:
         if name != "expect":
             raise BadFile(f"{file}: unknown key {name!r:.40}; only [[expect]] is known")

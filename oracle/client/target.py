@@ -1,5 +1,6 @@
 """What the words of a target mean: a program to run, or code to load.
 
+    reference, oracle the built-in implementations, as programs
     module:function   a Python callable, `intersect(solid, ray) -> pairs` with the objects of
                       raycert.cases.model, such as reference.tracer:intersect
     dir/tracer.py:function
@@ -21,12 +22,17 @@ from pathlib import Path
 from shutil import which
 from typing import TYPE_CHECKING
 
+from raycert.oracle.client.apart import ours
 from raycert.oracle.client.dialogue import Command, Target, Unusable
 from raycert.oracle.client.inprocess import InProcess
 
 if TYPE_CHECKING:
     from raycert.oracle.client.worker import Loaded
 
+BUILT_IN = {
+    "oracle": ("raycert", "serve", "oracle"),
+    "reference": ("raycert.reference",),
+}
 LIBRARIES = (".so", ".dylib", ".dll")
 CALLABLE = re.compile(r"([^\W\d]\w*(\.[^\W\d]\w*)*|.+\.py):[^\W\d]\w*(\.[^\W\d]\w*)*")
 
@@ -39,6 +45,8 @@ def target(words: Sequence[str]) -> Target:
     """
     if len(words) == 1:
         [word] = words
+        if word in BUILT_IN:
+            return Command(ours(*BUILT_IN[word]))
         exists = Path(word).is_file()
         if word.endswith(LIBRARIES):
             if not exists:

@@ -14,6 +14,8 @@ bench          error against run time, and what everything costs
 crosscheck     the oracle against its witnesses
 explain        one case, derived
 export         flat TSV
+field          many targets in one table
+fielding       certified side by side
 golden         write or check the golden files
 harness        starters for a client
 hunt           search for failing cases

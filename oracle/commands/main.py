@@ -18,6 +18,7 @@ VERBS: dict[str, dict[str, tuple[str, str]]] = {
     "Certify your tracer": {
         "harness": ("harness", "Write a starter client in C, C++, Rust, Go, Java, ..."),
         "certify": ("certify", "Grade an implementation on the golden cases."),
+        "field": ("field", "Grade many implementations into one table."),
         "report": ("certify:report", "Write the reports of a certificate again."),
         "explain": ("explain", "Derive one case, step by step."),
         "show": ("listing:show", "Show golden rows in full."),

@@ -9,6 +9,8 @@ terminal    the certificate on a terminal
 markdown    the certificate for the summary of a CI job
 junit       the certificate as JUnit XML
 page        the certificate as one HTML page, and the list of all forms
+gradebook   how many targets fare, as JSON, and its words
+gradetable  the same on a terminal, as Markdown and as a page
 picture     the pictures of one case
 section     a ray and a solid in a plane: what to look at, from where, and how large
 """
