@@ -171,7 +171,7 @@ def best(passing: Sequence[Row], failing: Sequence[Row]) -> tuple[Cuts, bool]:
     hard, lost_by = minimal(failing), Loss(passing)
     found, fewest, widest, seen = WHOLE, len(passing) + 1, -inf, set[Cuts]()
     pending = [WHOLE]
-    while pending and len(seen) < MOST:
+    while pending and (len(seen) < MOST or found is WHOLE):
         cuts = pending.pop()
         if cuts in seen or lost_by(cuts) > fewest:
             continue

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from raycert.cases.degenerate import DEGENERACIES
 from raycert.cases.domain import Tolerance
 from raycert.cases.levels import Level
 from raycert.cases.model import Ray, Solid, type_of
@@ -25,7 +26,7 @@ from raycert.reference.tracer import intersect
 from shared.corpus import golden
 
 Intersect = Callable[[Solid, Ray], Iterable[tuple[float, float]]]
-HELLO = Hello("a tracer")
+HELLO = Hello("a tracer", degenerate=DEGENERACIES)
 SOUND = {animal.name: animal.tracer for animal in inhabitants.SOUND}
 SOLIDS = ("half_space", "slab", "infinite_cylinder", "cylinder")
 

@@ -10,7 +10,7 @@ from math import inf, nextafter
 from typing import Any
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from raycert.cases.accept import Numbers
@@ -155,6 +155,11 @@ def as_row(at: tuple[float, ...]) -> Row:
     return Row(none, (*ordinary, *(64.0 * 2.0**x for x in at)))
 
 
+GREEDY = ([(1.0, 0, 0)] * 2 + [(0, 1.0, 0)] + [(0, 0, 1.0)] * 2, [(1.0, 1.0, 0), (1.0, 0, 1.0)])
+"""Whoever shuts out the first where that costs least pays more for the second."""
+
+
+@example(*GREEDY)
 @given(st.lists(POINTS, max_size=12), st.lists(POINTS.filter(any), min_size=1, max_size=6))
 def test_no_other_domain_keeps_more_rows(passing: Any, failing: Any) -> None:
     kept, out = [*map(as_row, passing)], [*map(as_row, failing)]
@@ -173,6 +178,26 @@ def test_no_other_domain_keeps_more_rows(passing: Any, failing: Any) -> None:
         if cuts[i] < inf:
             free = (*cuts[:i], inf, *cuts[i + 1 :])
             assert not all(row.beyond(free) for row in out)
+
+
+@given(st.lists(POINTS, max_size=12), st.lists(POINTS.filter(any), min_size=1, max_size=6))
+def test_what_is_found_in_few_steps_is_granted_and_cannot_be_widened(
+    passing: Any, failing: Any
+) -> None:
+    """With a cap on the search: it says so, and each bound is at a row that only it shuts out."""
+    kept, out = [*map(as_row, passing)], [*map(as_row, failing)]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("raycert.oracle.certify.widest.MOST", 1)
+        cuts, _ = best(kept, out)
+    assert all(row.beyond(cuts) for row in out)
+    for i in (4, 5, 6):
+        if cuts[i] < inf:
+            assert min(row.at[i] for row in out if row.beyond(cuts) == [i]) == cuts[i]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("raycert.oracle.certify.widest.MOST", 2)
+        greedy, exhaustive = best(*(list(map(as_row, points)) for points in GREEDY))
+    assert not exhaustive
+    assert all(as_row(at).beyond(greedy) for at in GREEDY[1])
 
 
 @given(st.floats(64.5, 1e12), st.floats(1.0001, 1e6))

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from raycert.cases.degenerate import DEGENERACIES
 from raycert.cases.levels import LEVELS
 from raycert.cases.model import HalfSpace, Ray, Sphere
 from raycert.cases.protocol import FROM_INSIDE, FromInside, Hello, Reply, first
@@ -102,7 +103,13 @@ def rows() -> tuple[GoldenRow, ...]:
 
 
 def hello(answers: str, mode: FromInside = "zero", convention: str = "closed") -> Hello:
-    return Hello("a tracer", answers=answers, from_inside=mode, convention=convention)  # type: ignore[arg-type]
+    return Hello(  # type: ignore[arg-type]
+        "a tracer",
+        answers=answers,  # type: ignore[arg-type]
+        from_inside=mode,  # type: ignore[arg-type]
+        convention=convention,
+        degenerate=DEGENERACIES,
+    )
 
 
 def graded(said: Callable[[GoldenRow], float | None], mode: FromInside) -> list[Grade]:

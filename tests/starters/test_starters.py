@@ -18,6 +18,7 @@ import pytest
 from click.testing import CliRunner
 
 from raycert.cases.corpus import MANIFEST, encode_rows, manifest, write_whole
+from raycert.cases.degenerate import DEGENERACIES
 from raycert.cases.formats import BINARY64
 from raycert.cases.model import SOLIDS, Vector
 from raycert.cases.protocol import Hello, Pairs, Reply
@@ -72,7 +73,9 @@ def build(lang: str, folder: Path) -> list[str]:
 @cache
 def graded(row: str, pairs: Pairs) -> Grade:
     """Return the grade of an answer; the starters answer alike, so few rows are graded twice."""
-    return grade(rows()[row], Reply(row, intervals=pairs), Hello("a starter"))
+    return grade(
+        rows()[row], Reply(row, intervals=pairs), Hello("a starter", degenerate=DEGENERACIES)
+    )
 
 
 @cache
