@@ -37,13 +37,14 @@ from typing import Any, TypeVar
 
 from raycert.cases import recipes
 from raycert.cases.formats import BINARY64, Format
+from raycert.cases.hints import lacking
 from raycert.cases.model import Leaf, Ray, Solid, Vector
 
 try:
     from hypothesis import strategies as st
 except ImportError:
     raise ImportError(
-        'raycert.cases.strategies needs Hypothesis: pip install "raycert[hunt]"', name="hypothesis"
+        lacking("raycert.cases.strategies", "hunt", "hypothesis"), name="hypothesis"
     ) from None
 
 T = TypeVar("T")

@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 
+from raycert.cases.hints import lacking
 from raycert.oracle.batch import compiled, lanes
 from raycert.oracle.batch.arithmetic import probe
 from raycert.oracle.batch.constants import LeafPlan
@@ -96,7 +97,7 @@ def engine_of(name: str) -> Engine:
     try:
         return _numba()
     except ImportError as error:
-        missing = f'numba is missing ({error}): pip install "raycert[speed]"'
+        missing = f"{lacking('the batch engine', 'speed', 'numba')} ({error})"
     if name == "numba":
         raise ValueError(missing)
     return Engine("numpy", _numpy().leaf_block, _numpy().trusted, missing)

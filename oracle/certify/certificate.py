@@ -417,7 +417,7 @@ def explaining(row: GoldenRow) -> str:
         return f"raycert explain {row.id}"
     case = _case(row)
     given = json.dumps({name: case[name] for name in ("solid", "ray")}, separators=(",", ":"))
-    return f"raycert explain --json - <<< {shlex.quote(given)}"
+    return f"raycert explain --case - <<< {shlex.quote(given)}"
 
 
 def _case(row: GoldenRow) -> Json:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from hashlib import sha256
 
 from raycert.cases.corpus import Corpus, Heading
+from raycert.cases.hints import near
 from raycert.cases.model import type_of, types
 from raycert.cases.protocol import Hello
 from raycert.cases.row import GoldenRow
@@ -94,10 +95,19 @@ class Selection:
         return (*named, *shard, *(("--smoke",) if self.smoke else ()))
 
     def missing(self, corpus: Corpus, fresh: Sequence[GoldenRow] = ()) -> list[str]:
-        """Return what is asked for and neither in the corpus nor among the fresh rows."""
-        known = {item for row in _headings(corpus, fresh) for item in _values(row).items()}
+        """Return what is asked for and neither in the corpus nor among the fresh rows.
+
+        Each with what was meant, if that can be told.
+        """
+        known = {name: set[str]() for name in NAMES}
+        for row in _headings(corpus, fresh):
+            for name, value in _values(row).items():
+                known[name].add(value)
         return [
-            value for name in NAMES for value in getattr(self, name) if (name, value) not in known
+            f"{value:.80} ({hint})" if (hint := near(value, known[name])) else f"{value:.80}"
+            for name in NAMES
+            for value in getattr(self, name)
+            if value not in known[name]
         ]
 
 

@@ -12,7 +12,16 @@ from raycert.cases.files import read_file
 from raycert.cases.formats import FORMATS, Format
 from raycert.cases.levels import TIERS
 from raycert.oracle.commands.asking import from_json
-from raycert.oracle.commands.options import FOLDER, PRECISIONS, BadInput, writing
+from raycert.oracle.commands.options import (
+    FOLDER,
+    BadInput,
+    OneOf,
+    precision_of,
+    repeatable,
+    statuses,
+    unknown,
+    writing,
+)
 from raycert.oracle.corpus.adopt import (
     CORPUS,
     Candidate,
@@ -44,30 +53,33 @@ golden file (.jsonl), or a directory of golden files, such as hunt writes.
 The inputs go to CORPUS/adopted/FAMILY.jsonl, and the rows made of them to
 CORPUS/golden. In a checkout the corpus is the project's own.
 
-\b
-Exit status: 0 adopted, 1 a witness finds another answer, 2 bad usage or input,
-or the corpus has the case already.
 """
+EPILOG += statuses(
+    {
+        0: "adopted",
+        1: "a witness finds another answer",
+        2: "bad usage or input, or the corpus has the case already",
+    }
+)
 
 
 @click.command(epilog=EPILOG)
 @click.argument("file", type=click.Path(exists=True, path_type=Path))
-@click.option("--family", required=True, help="The family to put it in; made if it is new.")
+@click.option(
+    "--family", metavar="FAMILY", required=True, help="The family to put it in; made if it is new."
+)
 @click.option("--why", required=True, help="What the case shows: one sentence of fact.")
-@click.option("--id", help="Which row of FILE, where it has several.")
+@click.option("--id", metavar="ID", help="Which row of FILE, where it has several.")
 @click.option("--slug", help="Its name in the family  [default: from what it shows]")
 @click.option("--source", help="The public report that it comes from.")
-@click.option("--flag", "flags", multiple=True, help="A flag of the legend (repeatable).")
-@click.option("--tier", type=click.Choice(TIERS), help="[default: told by its numbers]")
+@repeatable("--flag", "flags", "A flag of the legend")
+@click.option("--tier", type=OneOf(TIERS), help="[default: told by its numbers]")
+@precision_of("FILE, where its folder does not tell")
 @click.option(
-    "--precision",
-    type=click.Choice(PRECISIONS),
-    default="binary64",
-    show_default=True,
-    help="Number format of FILE, where its folder does not tell.",
-)
-@click.option(
-    "--corpus", type=FOLDER, help="The corpus  [default: the project's own, in a checkout]"
+    "--corpus",
+    type=FOLDER,
+    metavar="DIR",
+    help="The corpus  [default: the project's own, in a checkout]",
 )
 def adopt(file: Path, family: str, slug: str | None, corpus: Path | None, **options: Any) -> None:
     """Keep a found case: check it with all witnesses, name it, and make its golden rows.
@@ -122,7 +134,7 @@ def _row(file: Path, fmt: Format, id: str | None, why: str) -> Candidate:
     if not rows:
         raise BadInput(f"{file} has no golden rows")
     if not chosen:
-        raise BadInput(f"--id: no row {id!r} in {file}; it has {ids}")
+        unknown("row", id or "", (row.id for row, _ in rows), f"in {file}", f"it has {ids}")
     if len({row.id for row, _ in chosen}) > 1:
         raise BadInput(f"{file} has {len(rows)} rows; choose one with --id: {ids}")
     wanted = [(row, own) for row, own in chosen if own is fmt] or chosen

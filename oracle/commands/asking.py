@@ -37,7 +37,7 @@ Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 
 def case_options(function: Decorated) -> Decorated:
-    """Add what names one case: an ID, a solid and a ray by options, or --json; and of which rows.
+    """Add what names one case: an ID, a solid and a ray by options, or --case; and of which rows.
 
     `count_given` says how many of the three there are, `chosen` gives the case.
     """
@@ -47,11 +47,15 @@ def case_options(function: Decorated) -> Decorated:
         more: dict[str, Any] = {"nargs": len(words), "metavar": " ".join(words), "help": about_it}
         options.append(click.option(f"--{name.replace('_', '-')}", name, **more))
     options.append(click.option("--ray", nargs=2, metavar="U V", help="Origin and direction."))
-    file = "File with solid and ray; - is standard input."
-    options.append(click.option("--json", "file", type=click.File("rb"), help=file))
+    options.append(case_option())
     for option in reversed((*options, precision_option, golden_option)):
         function = option(function)
     return function
+
+
+def case_option(text: str = "", **more: Any) -> Callable[[Decorated], Decorated]:
+    text = f"JSON file with solid and ray{text}; - is standard input."
+    return click.option("--case", "file", type=click.File("rb"), metavar="FILE", help=text, **more)
 
 
 def count_given(options: dict[str, Any]) -> int:
@@ -59,8 +63,11 @@ def count_given(options: dict[str, Any]) -> int:
     return bool(options["id"]) + bool(options["file"]) + bool(words)
 
 
+ONE_CASE = "give one case: an ID, or --case FILE, or a solid with --ray"
+
+
 def chosen(options: dict[str, Any], rounded: list[Fact]) -> Probe | GoldenRow:
-    """Return the golden row with the ID, or else the case of --json or of the solid and the ray.
+    """Return the golden row with the ID, or else the case of --case or of the solid and the ray.
 
     What of the words is no number of the format is noted in `rounded`. Ends the command with exit
     status 2 where there is no such row or case.
@@ -69,7 +76,7 @@ def chosen(options: dict[str, Any], rounded: list[Fact]) -> Probe | GoldenRow:
     if options["id"]:
         return find(read(options["precision"], options["golden"]), options["id"])
     if options["file"]:
-        return from_json(read_all("--json", options["file"]), fmt, "--json")
+        return from_json(read_all("--case", options["file"]), fmt, "--case")
     return _from_words(options, fmt, rounded)
 
 

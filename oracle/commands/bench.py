@@ -20,7 +20,7 @@ from raycert.oracle.commands.measuring import (
     write_files,
     write_rows,
 )
-from raycert.oracle.commands.options import counting, repeatable
+from raycert.oracle.commands.options import TARGETS, OneOf, counting, needs, repeatable, statuses
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -48,7 +48,8 @@ LEGEND = """
 ulps: median and p99 of the rays whose pairs are right in number. k, squared: p99 of a sample.
 rounded: lists that are exact. lost: pairs missed + phantom pairs + rays without an answer.
 """
-EPILOG = """\b
+EPILOG = """{targets}
+\b
 What a row says, for example of
     method      us/ray  ...  ratio  ulps  p99     k p99   squared  rounded  lost
     textbook     4.1         0.08   95    1.2e7   2.1e6   6        12       3 + 0 + 0
@@ -75,22 +76,25 @@ pipe. What is not installed is named and left out. Ctrl-C ends the run and keeps
 Examples:
   raycert bench --quick
   raycert bench --scenario far --out figures
-  raycert bench --method reference --client './my_tracer --json' --client my.module:intersect
+  raycert bench --method reference --target './my_tracer -q' --target my_module:intersect
   raycert bench --section batch --section libraries --out figures
 
 --out writes bench.json, bench.csv and a plot of each scenario (needs "raycert[plots]").
 
-Exit status: 0 done, 1 interrupted, 2 bad usage, 3 a client could not be run, or NumPy is missing.
-""".format(sections="\n".join(f"  {name:10}  {text}" for name, text in SECTIONS.items()))
+{statuses}
+""".format(
+    targets=TARGETS,
+    sections="\n".join(f"  {name:10}  {text}" for name, text in SECTIONS.items()),
+    statuses=statuses({1: "interrupted", 3: "a target could not be run, or a package is missing"}),
+)
 
 
 @click.command(epilog=EPILOG)
-@repeatable("--section", "sections", "Only this section", type=click.Choice(list(SECTIONS)))
+@repeatable("--section", "sections", "Only this section", type=OneOf(SECTIONS))
 @repeatable("--scenario", "scenarios", "Only this scenario")
 @ways_options
 @click.option("--quick", is_flag=True, help="Within a minute: few rays, four scenarios.")
 @click.option("--rays", type=click.IntRange(min=4), help="Rays of a scenario.")
-@click.option("--commands", is_flag=True, help="Time whole commands of raycert as well.")
 @click.option("--list", "listing", is_flag=True, help="List sections and methods, and end.")
 @held()
 def bench(**options: Any) -> None:
@@ -99,8 +103,6 @@ def bench(**options: Any) -> None:
         _list()
         return
     sections = dict.fromkeys(options["sections"] or ("methods",))
-    if options["commands"]:
-        sections["commands"] = None
     report = run([name for name in SECTIONS if name in sections], options)
     _show(report)
     written = _write(report, options["out"]) if options["out"] is not None else []
@@ -117,7 +119,7 @@ def run(sections: Sequence[str], options: dict[str, Any]) -> Report:
     from raycert.oracle.measure.files import FULL, QUICK, Report
     from raycert.oracle.measure.rays import SETS
 
-    known(options["scenarios"], SETS, "--scenario")
+    known("scenario", options["scenarios"], SETS)
     for name in sections:
         _check_needs(name)
     effort = QUICK if options["quick"] else FULL
@@ -128,7 +130,7 @@ def run(sections: Sequence[str], options: dict[str, Any]) -> Report:
             break
         if name == "methods":
             sets = options["scenarios"] or (QUICKLY if options["quick"] else tuple(SETS))
-            ways, notes = chosen(options["names"], options["clients"])
+            ways, notes = chosen(options["names"], options["targets"])
             if options["quick"] and not options["names"]:
                 ways = [way for way in ways if way.precision != "mesh" or _is_quick(way.name)]
             report.notes += notes
@@ -145,12 +147,10 @@ def _is_quick(mesh: str) -> bool:
 
 
 def _check_needs(name: str) -> None:
-    from raycert.oracle.commands.options import stop
     from raycert.oracle.measure.sections import SECTIONS
-    from raycert.oracle.measure.way import missing
 
-    if name in SECTIONS and (some := missing(SECTIONS[name].needs)):
-        stop(f'{", ".join(some)} missing: pip install "raycert[speed]"')
+    if name in SECTIONS:
+        needs(f"--section {name}", "speed", *SECTIONS[name].needs)
 
 
 def _list() -> None:

@@ -25,9 +25,13 @@ from raycert.oracle.commands.options import (
     level_option,
     limits,
     limits_options,
+    out_option,
+    seed_option,
     solid_option,
     spelled,
+    statuses,
     stop,
+    target_argument,
     tier_option,
     write_out,
     writing,
@@ -47,6 +51,7 @@ REPORTS = {
     "junit": "JUnit XML: one test for a family.",
 }
 
+NOT_RUN = "the target could not be run, or nothing was tested"
 EPILOG = f"""{TARGETS}
 \b
 The line protocol, -> to the command and <- from it:
@@ -73,10 +78,7 @@ Examples:
   raycert certify --write-domain hello.json -- ./my_tracer
   raycert certify --hello hello.json -- ./my_tracer  for what it says it is for
 
-\b
-Exit status: 0 granted, or accepted with --expect; 1 not granted; 2 bad usage or
-input; 3 the target could not be run or nothing was tested; 4 an output could not
-be written: the verdict is printed, what is missing is said last.
+{statuses({0: "granted, or accepted with --expect", 1: "not granted", 3: NOT_RUN})}
 """
 
 
@@ -93,7 +95,7 @@ verbose_option = click.option(
 
 
 @click.command(epilog=EPILOG)
-@click.argument("target", nargs=-1, required=True, type=click.UNPROCESSED)
+@target_argument
 @level_option("sound")
 @click.option(
     "--convention",
@@ -111,15 +113,13 @@ verbose_option = click.option(
 @id_option
 @click.option("--smoke", is_flag=True, help="Only some 150 rows that refuse every planted fault.")
 @click.option("--shard", help="Only one of several parts, such as 2/5.")
-@click.option("--seed", type=click.IntRange(min=0), help="Ask cases drawn from this seed too.")
-@click.option("--fresh", type=click.IntRange(1, 100_000), help="Cases in that block (500).")
+@seed_option(None, "Ask cases drawn from this seed too.")
+@click.option("--fresh", type=click.IntRange(1, 100_000), metavar="N", help="How many (500).")
 @click.option("--fail-fast", is_flag=True, help="End soon after the first row that fails.")
 @click.option("--expect", type=KNOWN_FILE, help="Known failures: a TOML file, with reasons.")
 @click.option("--write-expectations", "record", type=FILE, help="Write such a file.")
 @golden_option
-@click.option(
-    "--out", type=FILE, help="The certificate.  [certificate.json; of a part of the rows none]"
-)
+@out_option(FILE, "The certificate.  [certificate.json; of a part of the rows none]")
 @click.option("--force", is_flag=True, help="Overwrite what is of another run, or no certificate.")
 @report_options
 @click.option("--stress", is_flag=True, help="Set its error against stiffness too (a minute).")
@@ -287,13 +287,13 @@ def _print(certificate: dict[str, Any], verbose: bool) -> None:
         show(certificate, screen(width=None if sys.stdout.isatty() else 100), verbose)
 
 
-REPORT_EPILOG = """\b
+REPORT_EPILOG = f"""\b
 Examples:
   raycert report certificate.json
   raycert report certificate.json --html out.html --junit out.xml
   raycert report certificate.json --markdown "$GITHUB_STEP_SUMMARY"
 
-Exit status: 0 done, 2 the file is no certificate, or bad usage, 4 a report could not be written.
+{statuses()}
 """
 
 

@@ -14,18 +14,24 @@ from rich.box import SIMPLE_HEAD
 from rich.table import Table
 
 from raycert.cases.draw import fresh
+from raycert.cases.files import read_all
 from raycert.cases.formats import BINARY64
-from raycert.cases.forms import read_ray, read_solid
-from raycert.cases.model import Ray, Refused, Solid
-from raycert.cases.protocol import BadLine, ask, decode
+from raycert.cases.model import Ray, Solid
+from raycert.cases.protocol import ask
+from raycert.oracle.commands.asking import case_option, from_json
 from raycert.oracle.commands.options import (
     PRECISIONS,
+    OneOf,
     counting,
     family_option,
     golden_option,
     read,
     repeatable,
+    seed_option,
+    statuses,
     stop,
+    unknown,
+    workers_option,
 )
 from raycert.oracle.reports.foreign import say
 from raycert.oracle.reports.screen import screen
@@ -35,6 +41,11 @@ from raycert.oracle.witness.testimony import Missing, load
 
 NAMES = ("definition", "enclosure", "symbols", "meshes")
 SHOWN = 10
+STATUSES = {
+    0: "no witness disagreed",
+    1: "one did",
+    3: "a witness's libraries are not installed, or nothing was checked",
+}
 HELP = """Check the oracle's answers by witnesses that share no formula with it.
 
 \b
@@ -44,34 +55,33 @@ symbols     SymPy: polynomials it derives, their real roots isolated
 meshes      trimesh: prisms inside and around the solid; prints how they close in
 
 Each case is agreed, undecided or disagreed; undecided is never agreement. The cases are the
-golden rows, some families of them, a fresh sample, or one given as a line of the protocol.
-
-\b
+golden rows, some families of them, a fresh sample, or one of the line protocol.
+"""
+EPILOG = f"""\b
 Examples:
   raycert crosscheck --fresh 2000
   raycert crosscheck --witness definition --witness enclosure
-  raycert crosscheck --json '{"solid": {"type": "sphere", "center": [0,0,0],
-      "radius": 1}, "ray": {"origin": [-3,0,0], "direction": [1,0,0]}}'
+  raycert crosscheck --case - <<< '{{"solid": {{"type": "sphere", "center": [0,0,0],
+      "radius": 1}}, "ray": {{"origin": [-3,0,0], "direction": [1,0,0]}}}}'
 
-Exit status: 0 no witness disagreed, 1 one did, 2 bad usage, 3 a witness's libraries are not
-installed or nothing was checked.
+{statuses(STATUSES)}
 """
 
 
-@click.command(help=HELP)
-@repeatable("--witness", "names", "Only this", type=click.Choice(NAMES))
+@click.command(help=HELP, epilog=EPILOG)
+@repeatable("--witness", "names", "Only this", type=OneOf(NAMES))
 @family_option
 @click.option("--fresh", type=click.IntRange(min=1), metavar="N", help="N cases drawn anew.")
-@click.option("--seed", default=1, show_default=True, help="What --fresh draws from.")
-@click.option("--json", "lines", multiple=True, metavar="CASE", help="This case (repeatable).")
+@seed_option(1, "What --fresh draws from.")
+@case_option(" (repeatable)", multiple=True)
 @golden_option
-@click.option("--workers", type=click.IntRange(min=1), default=2, show_default=True)
+@workers_option(2)
 def crosscheck(names: tuple[str, ...], **options: Any) -> None:
     """Check the oracle's answers by witnesses that share no formula with it."""
-    if sum(bool(options[name]) for name in ("families", "fresh", "lines")) > 1:
-        raise click.UsageError("--family, --fresh and --json exclude one another")
-    if options["golden"] and (options["fresh"] or options["lines"]):
-        raise click.UsageError("--golden goes with golden rows, not with --fresh or --json")
+    if sum(bool(options[name]) for name in ("families", "fresh", "file")) > 1:
+        raise click.UsageError("--family, --fresh and --case exclude one another")
+    if options["golden"] and (options["fresh"] or options["file"]):
+        raise click.UsageError("--golden goes with golden rows, not with --fresh or --case")
 
     chosen = tuple(name for name in NAMES if name in names) or NAMES
     _require(chosen)
@@ -80,7 +90,7 @@ def crosscheck(names: tuple[str, ...], **options: Any) -> None:
         stop("nothing to check: the golden files hold no rows")
     workers = min(options["workers"], -(-len(questions) // 16))
     status = _crosscheck(questions, chosen, workers)
-    if "meshes" in chosen and not options["lines"]:
+    if "meshes" in chosen and not options["file"]:
         _print_curve()
     raise SystemExit(status)
 
@@ -96,30 +106,23 @@ def _require(names: Sequence[str]) -> None:
 
 
 def _questions(options: dict[str, Any]) -> Iterable[tuple[str, Solid, Ray]]:
-    if options["lines"]:
-        return [_read(line, f"json-{i}") for i, line in enumerate(options["lines"], 1)]
+    if options["file"]:
+        forms = [read_all("--case", file) for file in options["file"]]
+        given = [from_json(form, BINARY64, "--case") for form in forms]
+        return [(f"case-{i}", *probe) for i, probe in enumerate(given, 1)]
     if options["fresh"]:
         cases = fresh(options["fresh"], options["seed"])
         return [(f"fresh/{case.slug}", case.solid, case.ray) for case in cases]
     return _rows(options["golden"], options["families"])
 
 
-def _read(line: str, id: str) -> tuple[str, Solid, Ray]:
-    """Return the case on a line of the protocol, as it is sent to an implementation."""
-    try:
-        form = decode(line.encode())
-        solid, ray = read_solid(form.get("solid")), read_ray(form.get("ray"))
-    except (BadLine, Refused) as error:
-        raise click.BadParameter(str(error), param_hint="--json") from None
-    return str(form.get("id", id)), solid, ray
-
-
 def _rows(folder: Path | None, families: tuple[str, ...]) -> list[tuple[str, Solid, Ray]]:
     corpora = [read(precision, folder) for precision in PRECISIONS]
     rows = [(f"{corpus.precision}:{row.id}", row) for corpus in corpora for row in corpus.rows]
     known = {row.family for _, row in rows}
-    if absent := [family for family in families if family not in known]:
-        raise click.UsageError(f"not in the corpus: {', '.join(absent)}; see: raycert list")
+    for family in families:
+        if family not in known:
+            unknown("family", family, known)
     wanted = families or known
     return [(id, row.solid, row.ray) for id, row in rows if row.family in wanted]
 
@@ -149,7 +152,7 @@ def _print_difference(checked: Hearing, names: Sequence[str]) -> None:
         say(f"  {name:<11} {verdict.found or 'no list'}")
         say(f"  {'':<11} {verdict.outcome}: {verdict.why}")
     only = "".join(f"--witness {name} " for name in names) if tuple(names) != NAMES else ""
-    say(f"  again       raycert crosscheck {only}--json {shlex.quote(line)}\n")
+    say(f"  again       raycert crosscheck {only}--case - <<< {shlex.quote(line)}\n")
 
 
 def _table(title: str | None, headings: Sequence[str], rows: Iterable[Sequence[str]]) -> None:

@@ -12,8 +12,18 @@ import click
 from raycert.cases.formats import FORMATS
 from raycert.cases.forms import write_ray, write_solid
 from raycert.cases.row import GoldenRow
-from raycert.oracle.commands.asking import case_options, chosen, count_given
-from raycert.oracle.commands.options import FILE_OR_DASH, aim, stop, write_out
+from raycert.oracle.commands.asking import ONE_CASE, case_options, chosen, count_given
+from raycert.oracle.commands.keeping import check_distinct
+from raycert.oracle.commands.options import (
+    FILE_OR_DASH,
+    TARGETS,
+    aim,
+    json_option,
+    statuses,
+    stop,
+    target_option,
+    write_out,
+)
 from raycert.oracle.explain.console import show, show_proofs
 from raycert.oracle.explain.derive import Derivation, as_given, derive, given, to_json
 from raycert.oracle.explain.wording import Fact, Passage
@@ -23,84 +33,78 @@ from raycert.oracle.reports.screen import screen
 if TYPE_CHECKING:
     from raycert.oracle.witness.proofs import Statement
 
-EXAMPLES = """\b
+STATUSES = {1: "a proof of --symbolic failed", 3: "a target could not be run, or SymPy is missing"}
+EPILOG = f"""{TARGETS}
+\b
 Examples:
   raycert explain behind/across-just-past
   raycert explain --cylinder 0,0,0 0,0,2 1 --ray=-3,0,1 1,0,0
   raycert explain --half-space 0,0,1 0,0,1 --ray 0,0,0 0,0,0.1
-  raycert show behind/across-just-past --json | raycert explain --json -
-  raycert explain behind/across-just-past --html case.html --with ./tracer.so
+  raycert show behind/across-just-past --json - | raycert explain --case -
+  raycert explain behind/across-just-past --html case.html --target ./tracer.so
   raycert explain --symbolic
-  raycert explain --json - <<< '{"solid": {"type": "sphere", "center": [0,0,0],
-      "radius": 1}, "ray": {"origin": [-3,0,0], "direction": [1,0,0]}}'
+  raycert explain --case - <<< '{{"solid": {{"type": "sphere", "center": [0,0,0],
+      "radius": 1}}, "ray": {{"origin": [-3,0,0], "direction": [1,0,0]}}}}'
+
+{statuses(STATUSES)}
 """
 
 
-@click.command(epilog=EXAMPLES)
+@click.command(epilog=EPILOG)
 @case_options
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(("text", "json")),
-    default="text",
-    show_default=True,
-    help="json: the golden row and the steps, as data.",
-)
+@json_option("Instead: the golden row and the steps", "data")
 @click.option("--full", is_flag=True, help="Long integers in full.")
 @click.option(
     "--html",
     type=FILE_OR_DASH,
     metavar="FILE",
-    help="Write a page with pictures instead; - is stdout.",
+    help="Instead: a page with pictures; - is standard output.",
 )
-@click.option(
-    "--with",
+@target_option(
+    "On the page, ask this implementation (repeatable).  [default: reference]",
     "targets",
     multiple=True,
-    metavar="TARGET",
-    help="On the page, ask this implementation (repeatable; the words of a command are quoted).  "
-    "[default: reference]",
 )
 @click.option(
     "--symbolic",
     is_flag=True,
     help="Before the case, or alone: SymPy's proofs of the formulas used.",
 )
-def explain(form: str, symbolic: bool, full: bool, **options: Any) -> None:
+def explain(symbolic: bool, full: bool, **options: Any) -> None:
     """Derive one case step by step: every quantity of its three problems, exactly.
 
     Shown are the row of each table that holds and why the others do not, the endpoints exactly
     and rounded, their condition, and what the textbook formula makes of them.
 
     The case is a golden row by its ID, or a solid and a ray by options, or an object of the line
-    protocol by --json (the only way for a union, an intersection or a difference). Vectors are
+    protocol by --case (the only way for a union, an intersection or a difference). Vectors are
     x,y,z without blanks; numbers are decimals or hex floats such as 0x1.8p-3.
 
     --html draws the case: ray and solid along the axis and across, the intervals over t and in ulps
-    around each end, and what implementations answer beside the exact list. A TARGET is one that
-    certify takes.
+    around each end, and what implementations answer beside the exact list.
 
     --symbolic needs no case. It derives the formulas from the definitions and proves them
     equal to the oracle's code, run on symbols; exit 1 if a proof fails, 3 without SymPy.
     """
-    given, page = count_given(options), options["html"]
+    given, page, data = count_given(options), options["html"], options["data"]
     if given > 1 or not (given or symbolic):
-        raise click.UsageError("give one case: an ID, or --json, or a solid with --ray")
-    if page and (not given or form == "json"):
-        raise click.UsageError("--html is a page of one case, and instead of --format json")
+        raise click.UsageError(ONE_CASE)
+    if page and not given:
+        raise click.UsageError("--html is a page of one case")
     if options["targets"] and not page:
-        raise click.UsageError("--with is for the page; add --html FILE")
+        raise click.UsageError("--target is for the page; add --html FILE")
+    check_distinct({"--html": page, "--json": data})
     derivation = _derivation(options) if given else None
     statements = _proofs() if symbolic else []
     if page and derivation is not None:
         _write(page, derivation, options)
-        derivation = None
-    if form == "json":
+    if data:
         proofs = [{"title": s.title, "text": s.text, "proved": s.proved} for s in statements]
         shown = {"symbolic": proofs} if symbolic else {}
-        say(json.dumps(shown | (to_json(derivation) if derivation else {}), indent=1))
+        shown |= to_json(derivation) if derivation else {}
+        write_out(data, json.dumps(shown, indent=1) + "\n")
     else:
-        _print(derivation, statements, full)
+        _print(None if page else derivation, statements, full)
     if not all(statement.proved for statement in statements):
         raise SystemExit(1)
 
@@ -140,20 +144,25 @@ def _write(file: str, derivation: Derivation, options: dict[str, Any]) -> None:
     from raycert.oracle.explain.casepage import ask, case_page
 
     row, fmt = derivation.row, derivation.format
-    words = options["targets"] or ("reference",)
-    aims = [(word, aim(tuple(shlex.split(word)))) for word in words]
+    targets = options["targets"] or (("reference",),)
+    aims = [(_one(words), aim(words)) for words in targets]
     answers = [ask(word, target, row, fmt.name) for word, target in aims]
     text = case_page(derivation, answers, _repeat(derivation, options))
     if write_out(file, text) and file != "-":
         say(f"written {file}", err=True)
 
 
+def _one(words: tuple[str, ...]) -> str:
+    """Return the words of a target in one, as --target takes them."""
+    return words[0] if len(words) == 1 else shlex.join(words)
+
+
 def _repeat(derivation: Derivation, options: dict[str, Any]) -> str:
     """Return the command line that makes the page again, from anywhere if the case is no row."""
     row, id, words = derivation.row, options["id"], ["raycert", "explain"]
     case = {"solid": write_solid(row.solid), "ray": write_ray(row.ray)}
-    words += [id] if id else ["--json", "-"]
-    words += [word for target in options["targets"] for word in ("--with", target)]
+    words += [id] if id else ["--case", "-"]
+    words += [word for target in options["targets"] for word in ("--target", _one(target))]
     if options["precision"] != "binary64":
         words += ["--precision", options["precision"]]
     if id and options["golden"]:

@@ -19,8 +19,12 @@ from raycert.oracle.commands.options import (
     BadInput,
     family_option,
     golden_option,
+    out_option,
     precision_option,
     read,
+    repeatable,
+    solid_option,
+    statuses,
     tier_option,
     unknown,
     write_out,
@@ -74,7 +78,7 @@ that it decides fails the stronger ones that it decides.
 EXAMPLES = """\b
 Examples:
   raycert export --out golden.tsv
-  raycert export --precision binary32 --solids cylinder --tier lattice
+  raycert export --precision binary32 --declared cylinder --tier lattice
 """
 
 
@@ -82,41 +86,36 @@ def _help() -> str:
     """Return examples and grammar as blocks that --help leaves as they are."""
     names = {"digits": "16 (8)", "name": "binary64 (binary32)", "inf": "7ff0000000000000"}
     blocks = GRAMMAR.format(**names).strip().split("\n\n")
-    return "\n\n".join((EXAMPLES, *(f"\b\n{block}" for block in blocks)))
+    return "\n\n".join((EXAMPLES, *(f"\b\n{block}" for block in blocks), statuses()))
 
 
 @click.command(epilog=_help())
-@click.option(
-    "--out",
-    type=FILE_OR_DASH,
-    default="-",
-    show_default=True,
-    help="File to write; - is standard output.",
-)
+@out_option(FILE_OR_DASH, "- is standard output.", default="-", show_default=True)
 @family_option
 @tier_option
-@click.option(
-    "--solids", help="Only rows made of these types alone, between commas: slab,cylinder."
-)
+@solid_option
+@repeatable("--declared", "declared", "Only rows for who declares this solid, and the others given")
 @precision_option
 @golden_option
-def export(out: str, solids: str | None, precision: str, golden: Path | None, **rows: Any) -> None:
+def export(
+    out: str, declared: tuple[str, ...], precision: str, golden: Path | None, **rows: Any
+) -> None:
     """Write golden rows as flat TSV with bit patterns: no JSON, no decimal to parse."""
     corpus = read(precision, golden)
     chosen = select(corpus, **rows)
-    chosen = _made_of(chosen, solids) if solids else chosen
+    chosen = _made_of(chosen, declared) if declared else chosen
     if not chosen:
         raise BadInput("no row is such; see: raycert list --families")
     if write_out(out, "".join(f"{line}\n" for line in lines(chosen, corpus))) and out != "-":
         say(f"{len(chosen)} rows written to {out}", err=True)
 
 
-def _made_of(rows: list[GoldenRow], solids: str) -> list[GoldenRow]:
-    """Return the rows whose solids are made of some types alone."""
-    allowed = {name.strip() for name in solids.split(",")}
-    for name in sorted(allowed - SOLIDS.keys()):
-        unknown("solid", name, SOLIDS)
-    return [row for row in rows if types(row.solid) <= allowed]
+def _made_of(rows: list[GoldenRow], declared: tuple[str, ...]) -> list[GoldenRow]:
+    """Return the rows whose solids are made of the declared types alone."""
+    for name in declared:
+        if name not in SOLIDS:
+            unknown("solid", name, SOLIDS)
+    return [row for row in rows if types(row.solid) <= set(declared)]
 
 
 def lines(rows: list[GoldenRow], corpus: Corpus) -> Iterator[str]:

@@ -9,7 +9,14 @@ import click
 from raycert.cases.case import Family
 from raycert.cases.corpus import GOLDEN
 from raycert.cases.families.catalog import FAMILIES
-from raycert.oracle.commands.options import FOLDER, KNOWN_FOLDER, counting, writing
+from raycert.oracle.commands.options import (
+    FOLDER,
+    KNOWN_FOLDER,
+    Group,
+    counting,
+    statuses,
+    writing,
+)
 from raycert.oracle.corpus.adopt import sources
 from raycert.oracle.corpus.golden import RELEASE, USUAL, Contradiction, compare
 from raycert.oracle.corpus.golden import write as write_files
@@ -20,21 +27,39 @@ folder_option = click.option(
     "--golden",
     "folder",
     type=click.Path(file_okay=False, path_type=Path),
+    metavar="DIR",
     help="Directory of the golden files  [default: the installed corpus]",
 )
 corpus_option = click.option(
     "--corpus",
     type=KNOWN_FOLDER,
+    metavar="DIR",
     help="A corpus that raycert adopt made: its own families, its own golden files.",
 )
 
 
-@click.group()
+@click.group(cls=Group)
 def golden() -> None:
     """Regenerate or check the golden files: every row, computed anew from its family."""
 
 
-@golden.command(epilog="In a checkout: raycert golden write --golden cases/golden")
+WRITE_EPILOG = f"""\b
+Examples:
+  raycert golden write --golden cases/golden         in a checkout
+  raycert golden write --corpus my-corpus            what raycert adopt keeps
+
+{statuses({1: "a witness finds another answer, and nothing was written"})}
+"""
+CHECK_EPILOG = f"""\b
+Examples:
+  raycert golden check
+  raycert golden check --corpus my-corpus
+
+{statuses({0: "every byte is as computed", 1: "some are not"})}
+"""
+
+
+@golden.command(epilog=WRITE_EPILOG)
 @folder_option
 @corpus_option
 @click.option(
@@ -60,7 +85,7 @@ def write(folder: Path | None, corpus: Path | None, release: bool) -> None:
         raise click.ClickException(f"nothing was written. {error}") from None
 
 
-@golden.command()
+@golden.command(epilog=CHECK_EPILOG)
 @folder_option
 @corpus_option
 def check(folder: Path | None, corpus: Path | None) -> None:

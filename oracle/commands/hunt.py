@@ -26,9 +26,15 @@ from raycert.oracle.commands.options import (
     level_option,
     limits,
     limits_options,
+    needs,
+    out_option,
+    seed_option,
     solid_option,
     spelled,
+    statuses,
     stop,
+    target_argument,
+    workers_option,
     writing,
 )
 from raycert.oracle.corpus.golden import Contradiction, show
@@ -45,6 +51,11 @@ from raycert.oracle.reports.foreign import say
 
 SECONDS = 60.0
 
+STATUSES = {
+    0: "nothing was found",
+    1: "something was",
+    3: "the target could not be run, or the cluster was lost: what was found by then is kept",
+}
 EPILOG = f"""{TARGETS}
 \b
 How it searches: a directed search takes hard cases, and moves them along the
@@ -70,14 +81,12 @@ hunt-SEED.json, with the answers and what each case was before it was made
 simple. The same hunt again replaces its own; another has the next free name.
 Ctrl-C ends the hunt and keeps what was found.
 
-\b
-Exit status: 0 nothing was found, 1 something was; 2 bad usage or input; 3 the
-target could not be run, or the cluster was lost: what was found by then is kept.
+{statuses(STATUSES)}
 """
 
 
 @click.command(epilog=EPILOG)
-@click.argument("target", nargs=-1, required=True, type=click.UNPROCESSED)
+@target_argument
 @level_option("stable")
 @click.option("--convention", help="Count touches against this too: closed, regularized, ...")
 @click.option("--range/--no-range", "far", help="Count cases that over- or underflow too.")
@@ -85,8 +94,8 @@ target could not be run, or the cluster was lost: what was found by then is kept
 @click.option("--time", "seconds", type=click.FloatRange(0.1), help="Seconds to hunt (60).")
 @click.option("--cases", type=click.IntRange(1), help="Cases to try, instead of a time.")
 @click.option("--most", type=click.IntRange(1), default=20, show_default=True, help="Causes.")
-@click.option("--seed", type=int, default=0, show_default=True)
-@click.option("--workers", type=click.IntRange(1, 256), default=1, help="Processes here (1).")
+@seed_option(0, "What is drawn; the same seed finds the same.")
+@workers_option(1, 256)
 @click.option("--scheduler", help="Hunt on the Dask cluster with this address.")
 @click.option(
     "--golden-seeds/--no-golden", "seeded", default=True, help="Move golden rows too, or none."
@@ -95,7 +104,7 @@ target could not be run, or the cluster was lost: what was found by then is kept
 @click.option(
     "--examples", type=FOLDER, help="Keep Hypothesis's examples here, and try them first."
 )
-@click.option("--out", type=FOLDER, default="hunted", show_default=True)
+@out_option(FOLDER, "What was found.", default="hunted", show_default=True)
 @limits_options
 @held()
 def hunt(target: tuple[str, ...], **options: Any) -> None:
@@ -128,10 +137,7 @@ def _check(options: dict[str, Any]) -> None:
 
 
 def _job(target: Target, options: dict[str, Any]) -> Job:
-    try:
-        import hypothesis  # noqa: F401
-    except ImportError:
-        stop('hunt needs Hypothesis: pip install "raycert[hunt]"')
+    needs("hunt", "hunt", "hypothesis")
     return Job(
         target,
         limits(options),

@@ -20,10 +20,17 @@ from raycert.cases.protocol import TOUCHES
 from raycert.cases.row import GoldenRow
 from raycert.cases.table import HALF_SPACE, PROBLEM_1, PROBLEM_2, PROBLEM_3
 from raycert.oracle.commands.options import (
+    OneOf,
+    family_option,
     find,
     golden_option,
+    json_option,
     precision_option,
     read,
+    repeatable,
+    solid_option,
+    statuses,
+    tier_option,
     unknown,
     write_out,
 )
@@ -32,10 +39,10 @@ from raycert.oracle.reports.screen import screen
 
 FIELDS = ("family", "tier", "flag", "row", "solid", "source", "touch", "decisive")
 
-LIST_EXAMPLES = """\b
+LIST_EPILOG = f"""\b
 Examples:
   raycert list --families                        what is tested, and why
-  raycert list --row through --row BG --row m=n  one cell of the case table
+  raycert list --row through --row BG --row m=n   one cell of the case table
   raycert list --flag tangent --touch rim
   raycert list --not-decisive stable --count
   raycert list --count tier --family tilt
@@ -45,29 +52,33 @@ Rows of the case tables (cases/README.md):
   Problem 1   along-inside along-outside miss behind from-inside through
   Problem 2   AE BE AF AH BG DE CF; of one plane A B C D
   Problem 3   neither no-1 no-2 apart meet, and a>c a=c a<c b>d ... m<n m=n m>n
+
+{statuses()}
 """
-SHOW_EXAMPLES = """\b
+SHOW_EPILOG = f"""\b
 Examples:
   raycert show behind/across-just-past
-  raycert show behind/across-just-past --json | jq .accept
+  raycert show behind/across-just-past --json - | jq .accept
   raycert explain behind/across-just-past            the same case, derived
+
+{statuses()}
 """
 
 
-@click.command(name="list", epilog=LIST_EXAMPLES)
-@click.option("--family", "families", multiple=True, help="Of this family (repeat: any of them).")
-@click.option("--tier", "tiers", multiple=True, type=click.Choice(TIERS), help="Of this tier.")
-@click.option("--flag", "flags", multiple=True, help="With this flag (repeat: all of them).")
-@click.option("--row", "rows", multiple=True, help="Taking this table row (repeat: all of them).")
-@click.option("--solid", "solids", multiple=True, help="Of this solid type.")
+@click.command(name="list", epilog=LIST_EPILOG)
+@family_option
+@tier_option
+@repeatable("--flag", "flags", "With this flag, and all others given")
+@repeatable("--row", "rows", "Taking this table row, and all others given")
+@solid_option
 @click.option("--source", help="With this text in the source, such as geant4.")
 @click.option("--touch", help="With a touch of this kind: tangent, wall, cap, rim, start.")
-@click.option("--not-decisive", type=click.Choice(LEVELS), help="Not decisive for this level.")
+@click.option("--not-decisive", type=OneOf(LEVELS), help="Not decisive for this level.")
 @click.option(
     "--count",
     is_flag=False,
     flag_value="family",
-    type=click.Choice(FIELDS),
+    type=OneOf(FIELDS),
     help="Count the rows by a field (family if none is named) instead of listing them.",
 )
 @click.option("--families", "reasons", is_flag=True, help="List the families and their reasons.")
@@ -194,18 +205,20 @@ def _print_legend() -> None:
             say(f"    {line}")
 
 
-@click.command(epilog=SHOW_EXAMPLES)
+@click.command(epilog=SHOW_EPILOG)
 @click.argument("ids", nargs=-1, required=True)
-@click.option("--json", "raw", is_flag=True, help="The lines of the golden files, as they are.")
+@json_option("Instead: the lines of the golden files, as they are")
 @click.option("--full", is_flag=True, help="Long integers in full.")
 @precision_option
 @golden_option
-def show(ids: tuple[str, ...], raw: bool, full: bool, precision: str, golden: Path | None) -> None:
+def show(
+    ids: tuple[str, ...], out: str | None, full: bool, precision: str, golden: Path | None
+) -> None:
     """Show golden rows: the case, its exact answer, and the lists that accept."""
     corpus = read(precision, golden)
     rows = [find(corpus, id) for id in ids]
-    if raw:
-        write_out("-", encode_rows(rows, corpus.format))
+    if out:
+        write_out(out, encode_rows(rows, corpus.format))
         return
     from raycert.oracle.explain.console import show_rows
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from difflib import get_close_matches
 from importlib import import_module
 from typing import Any
 
@@ -11,7 +10,7 @@ import click
 from raycert.cases import interrupts
 from raycert.cases.files import BadFile
 from raycert.oracle.commands import streams
-from raycert.oracle.commands.options import FULL, LOST, NOT_WRITTEN, BadInput, flush
+from raycert.oracle.commands.options import FULL, LOST, NOT_WRITTEN, BadInput, Group, flush
 from raycert.oracle.reports.foreign import escaped, say
 
 VERBS: dict[str, dict[str, tuple[str, str]]] = {
@@ -48,8 +47,19 @@ VERBS: dict[str, dict[str, tuple[str, str]]] = {
 """By what a person comes for: the verbs, each with its module here (and function, where that is
 not named like it), and what it does."""
 PLACES = {verb: place for group in VERBS.values() for verb, (place, _) in group.items()}
-FORMER: dict[str, str] = {"speed": "bench --section batch, scalar, libraries or scenes"}
-"""Verbs that went into others, each with what to type now."""
+FORMER: dict[str, str] = {
+    "speed": "bench --section batch, scalar, libraries or scenes",
+    "plan --solids": "raycert bench --section scenes",
+    "export --solids": "--declared SOLID",
+    "render --tracer": "--method",
+    "explain --with": "--target",
+    "explain --format": "--json FILE",
+    "bench --client": "--target",
+    "bench --commands": "--section commands",
+    "stress --client": "--target",
+    **dict.fromkeys(("explain --id", "map --id", "show --id"), "ID, without --id"),
+}
+"""Verbs and options that went into others, each with what to type now."""
 
 EPILOG = """\b
 First steps:
@@ -67,7 +77,7 @@ where there is nothing to keep, the status is 128 and the signal's number.
 """
 
 
-class Verbs(click.Group):
+class Verbs(Group):
     """A group whose commands are imported when they are needed."""
 
     def main(self, *args: Any, **kwargs: Any) -> Any:
@@ -87,13 +97,9 @@ class Verbs(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Return the verb that the words begin with; an unknown one is met with what is near."""
-        word = args[0]
-        if word not in PLACES and not word.startswith("-"):
-            near = get_close_matches(word, PLACES, n=2, cutoff=0.6)
-            near = [FORMER[word]] if word in FORMER else near
-            hint = f"did you mean {' or '.join(near)}?" if near else "see: raycert --help"
-            ctx.fail(f"no verb {word!r}; {hint}")
+        """Return the verb that the words begin with, or say what to type for a former one."""
+        if args[0] in FORMER:
+            ctx.fail(f"no verb {args[0]!r} any more; type: {FORMER[args[0]]}")
         return super().resolve_command(ctx, args)
 
     def invoke(self, ctx: click.Context) -> Any:
@@ -110,6 +116,12 @@ class Verbs(click.Group):
                 raise
         except BadFile as error:
             raise BadInput(escaped(str(error))) from None
+        except click.NoSuchOption as error:
+            former = f"{error.ctx.info_name if error.ctx else ''} {error.option_name}"
+            if former in FORMER:
+                raise click.UsageError(f"{former} is now: {FORMER[former]}", error.ctx) from None
+            vars(error)["message"] = escaped(error.message)
+            raise
         except click.ClickException as error:
             vars(error)["message"] = escaped(error.message)
             raise

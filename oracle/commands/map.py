@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Callable
 from fractions import Fraction
 from json import dumps
@@ -15,15 +14,21 @@ from raycert.cases.formats import FORMATS
 from raycert.cases.interrupts import held
 from raycert.cases.model import Refused
 from raycert.oracle.client.dialogue import Unusable
-from raycert.oracle.commands.asking import SHAPES, case_options, chosen, count_given
+from raycert.oracle.commands.asking import ONE_CASE, SHAPES, case_options, chosen, count_given
 from raycert.oracle.commands.options import (
     FILE,
+    TARGETS,
     BadInput,
+    OneOf,
     aim,
     counting,
     limits,
     limits_options,
+    needs,
+    out_option,
+    statuses,
     stop,
+    target_option,
     write_out,
 )
 from raycert.oracle.map.legend import summary, to_csv, to_json
@@ -34,7 +39,8 @@ from raycert.oracle.reports.foreign import say
 PICTURES, DATA = (".png", ".svg"), (".json", ".csv")
 CELLS = 96
 
-EPILOG = """\b
+EPILOG = f"""{TARGETS}
+\b
 Inputs are named by their paths: ray.origin[1], solid.radius, solid.q[2],
 solid.of[1].center[2]. A direction is a list path=weight,... and moves all of
 them at once: ray.origin[0]=1,ray.origin[1]=-1.
@@ -61,11 +67,10 @@ Examples:
   raycert map far-grazing/cylinder-tangent-1e8 --x ray.origin[1] --y solid.radius \\
       --unit units --span 1e-7 --show disagreement \\
       --target raycert.oracle.zoo.textbook:textbook --out lost.svg --out lost.csv
-  raycert map --json case.json --x ray.origin[0]=1,ray.origin[2]=1 \\
+  raycert map --case case.json --x ray.origin[0]=1,ray.origin[2]=1 \\
       --y solid.of[1].q[2] --unit units --span 0.5 --out film.png
 
-\b
-Exit status: 0 done, 1 interrupted; 2 bad usage or input; 3 the target could not be run.
+{statuses({1: "interrupted", 3: "the target could not be run"})}
 """
 
 
@@ -74,7 +79,7 @@ Exit status: 0 done, 1 interrupted; 2 bad usage or input; 3 the target could not
 @click.option("--x", "x", required=True, metavar="PATHS", help="What moves to the right.")
 @click.option("--y", "y", required=True, metavar="PATHS", help="What moves upward.")
 @click.option("--span", help="How far on each side.  [half of --cells in ulps, else 1]")
-@click.option("--unit", type=click.Choice(UNITS), default="ulps", show_default=True)
+@click.option("--unit", type=OneOf(UNITS), default="ulps", show_default=True)
 @click.option(
     "--cells",
     type=click.IntRange(2, 1000),
@@ -82,28 +87,19 @@ Exit status: 0 done, 1 interrupted; 2 bad usage or input; 3 the target could not
     show_default=True,
     help="At most about so many on an axis.",
 )
-@click.option("--show", type=click.Choice(SHOWS), help="[exact, or k with --target]")
-@click.option(
-    "--target", help="reference (default), oracle, module:function, ./tracer.so, or a command line."
-)
-@click.option(
-    "--out",
-    "outs",
-    type=FILE,
-    multiple=True,
-    required=True,
-    help="File: .png, .svg, .json or .csv (repeatable).",
-)
+@click.option("--show", type=OneOf(SHOWS), help="[exact, or k with --target]")
+@target_option("Whose answers are shown, but for --show exact.  [default: reference]")
+@out_option(FILE, "A .png, .svg, .json or .csv (repeatable).", "outs", multiple=True, required=True)
 @limits_options
 @held()
 def draw_map(**options: Any) -> None:
     """Draw what surrounds a case: for each cell the exact answer, or how far a target's is right.
 
-    The case is a golden row by its ID, or a solid and a ray by options, or --json, as for explain.
+    The case is a golden row by its ID, or a solid and a ray by options, or --case, as for explain.
     Ctrl-C keeps the cells that are done: those around the case come first.
     """
     if count_given(options) != 1:
-        raise click.UsageError("give one case: an ID, or --json, or a solid with --ray")
+        raise click.UsageError(ONE_CASE)
     writers = [_writer(path) for path in options["outs"]]
     show = options["show"] or ("k" if options["target"] else "exact")
     if show == "exact" and options["target"]:
@@ -126,11 +122,9 @@ def _writer(path: Path) -> Callable[[Map, str], str | bytes]:
         known = ", ".join((*PICTURES, *DATA))
         raise click.BadParameter(f"{path}: not one of {known}", param_hint="--out")
     if suffix in PICTURES:
-        try:
-            from raycert.oracle.plots.mapping import save
-        except ImportError as error:
-            need = 'pictures need matplotlib: pip install "raycert[plots]"'
-            raise BadInput(f"{need} ({error})") from None
+        needs("a picture", "plots", "matplotlib")
+        from raycert.oracle.plots.mapping import save
+
         return lambda found, title: save(found, title, suffix[1:])
     if suffix == ".csv":
         return lambda found, _: to_csv(found)
@@ -156,11 +150,7 @@ def _raster(options: dict[str, Any]) -> Raster:
 def _sampled(raster: Raster, show: Any, options: dict[str, Any]) -> Map:
     target = None
     if show != "exact":
-        try:
-            words = tuple(shlex.split(options["target"] or "reference"))
-        except ValueError as error:
-            raise click.BadParameter(str(error), param_hint="--target") from None
-        target = aim(words)
+        target = aim(options["target"] or ("reference",))
     try:
         return sample(raster, show, target, limits(options), counting)
     except Unusable as error:

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-import shlex
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
 
-import click
-
+from raycert.cases.hints import lacking
 from raycert.cases.interrupts import interruptible
-from raycert.oracle.commands.options import FOLDER, repeatable, stop, write_out
+from raycert.oracle.commands.options import (
+    FOLDER,
+    out_option,
+    repeatable,
+    seed_option,
+    stop,
+    target_option,
+    unknown,
+    write_out,
+)
 from raycert.oracle.reports.foreign import say
 
 if TYPE_CHECKING:
@@ -21,26 +28,24 @@ if TYPE_CHECKING:
 def ways_options(function: Callable[..., Any]) -> Callable[..., Any]:
     """Add the options that say which ways, from what the rays are drawn, and where files go."""
     for option in (
-        click.option("--out", type=FOLDER, metavar="DIR", help="Write the rows and the plots."),
-        click.option("--seed", default=1, show_default=True, type=click.IntRange(min=0),
-                     help="What the rays are drawn from."),
-        repeatable("--client", "clients", "This program too", metavar="CMD"),
+        out_option(FOLDER, "Write the rows and the plots."),
+        seed_option(1, "What the rays are drawn from."),
+        target_option("This implementation too (repeatable).", "targets", multiple=True),
         repeatable("--method", "names", "Only this method"),
-    ):  # fmt: skip
+    ):
         function = option(function)
     return function
 
 
-def chosen(names: Sequence[str], clients: Sequence[str]) -> tuple[list[Way], list[str]]:
+def chosen(names: Sequence[str], targets: Sequence[Sequence[str]]) -> tuple[list[Way], list[str]]:
     """Return the ways to run, all without a name, and notes on those that cannot.
 
-    A client that cannot be run ends the program.
+    A target that cannot be run ends the program.
     """
     from raycert.oracle.client.dialogue import Unusable
     from raycert.oracle.measure import catalog
 
-    known(names, catalog.BY_NAME, "--method", "raycert bench --list shows all")
-    targets = [_words(client) for client in clients]
+    known("method", names, catalog.BY_NAME, "raycert bench --list shows all")
     try:
         with interruptible():
             return catalog.here(catalog.chosen(names, targets))
@@ -48,22 +53,11 @@ def chosen(names: Sequence[str], clients: Sequence[str]) -> tuple[list[Way], lis
         stop(str(error))
 
 
-def _words(client: str) -> list[str]:
-    try:
-        words = shlex.split(client)
-    except ValueError as error:
-        raise click.BadParameter(f"{client!r}: {error}", param_hint="--client") from None
-    if not words:
-        raise click.BadParameter("names no program", param_hint="--client")
-    return words
-
-
-def known(names: Iterable[str], there: Iterable[str], option: str, hint: str = "") -> None:
+def known(what: str, names: Iterable[str], there: Iterable[str], hint: str = "") -> None:
     """Refuse a name that is none of those there are."""
     for name in names:
         if name not in there:
-            text = f"there is no {name!r}; {hint or 'there are ' + ', '.join(there)}"
-            raise click.BadParameter(text, param_hint=option)
+            unknown(what, name, there, hint=hint)
 
 
 def write_rows(folder: Path, name: str, form: Any, table: str) -> list[Path]:
@@ -88,7 +82,7 @@ def drawing() -> Iterator[None]:
     except ModuleNotFoundError as absent:
         if absent.name != "matplotlib":
             raise
-        say('no plots without matplotlib: pip install "raycert[plots]"', err=True)
+        say(f"no plots: {lacking('drawing', 'plots', 'matplotlib')}", err=True)
 
 
 def end(interrupted: bool, written: Iterable[Path]) -> NoReturn:

@@ -3,13 +3,18 @@
     rows      golden_option precision_option family_option tier_option solid_option id_option;
               `read(precision, golden)` and `find(corpus, id)` give the rows that they name
     asked     level_option(default); `check_convention` refuses a word that is no convention
-    target    the argument's help is TARGETS; `aim(words)` is the target, `spelled(words)` its
-              words for a command line; limits_options, and `limits(options)` what they set
-    refusals  `stop(message)` ends with 3, `BadInput` with 2; `unknown` says which values come near
-    output    FILE, FILE_OR_DASH and FOLDER are the types of what is written, tried before the
-              work; `write_out` and `writing` after it keep what fails to the end of the verb, which
-              `main` ends with NOT_WRITTEN; `counting` is the progress between
+    target    target_argument, target_option(text), whose help ends with TARGETS; `aim(words)` is
+              the target, `spelled(words)` its words for a command line; limits_options, and
+              `limits(options)` what they set
+    refusals  `stop(message)` ends with 3, `BadInput` with 2; `unknown` says which name was meant,
+              and so does `OneOf`, a choice; `needs(what, extra, modules)` what to install
+    output    out_option(type, text), json_option(text); FILE, FILE_OR_DASH and FOLDER are the types
+              of what is written, tried before the work; `write_out` and `writing` after it keep
+              what fails to the end of the verb, which `main` ends with NOT_WRITTEN; `counting` is
+              the progress between
     input     KNOWN_* are the types of what is read
+    others    seed_option(default, text), workers_option(default)
+    help      `statuses(...)` is the last line of every verb's help
 
 Another repeatable option is `repeatable("--method", "names", "Only this method")`. Nothing but
 click is loaded before a function is called.
@@ -19,6 +24,7 @@ from __future__ import annotations
 
 import errno
 import os
+import shlex
 import sys
 import tempfile
 from collections.abc import Callable, Iterable, Iterator
@@ -28,6 +34,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 import click
 
+from raycert.cases.hints import lacking, near
 from raycert.cases.levels import LEVELS, TIERS, Level
 from raycert.oracle.reports.foreign import say
 
@@ -57,24 +64,63 @@ def stop(message: str) -> NoReturn:
     raise SystemExit(3)
 
 
+def needs(what: str, extra: str, *modules: str) -> None:
+    """Stop, and say what to install, where a module of an extra is missing."""
+    from importlib.util import find_spec
+
+    if missing := [name for name in modules if find_spec(name) is None]:
+        stop(lacking(what, extra, *missing))
+
+
 def unknown(
     what: str, value: str, known: Iterable[str], where: str = "", hint: str = ""
 ) -> NoReturn:
-    """Stop: no such value, and which come near."""
-    from difflib import get_close_matches
-
+    """Stop: no such value, and which was meant."""
     names = sorted(set(known))
-    near = [name for name in names if value and value in name][:5]
-    near = near or get_close_matches(value, names, n=5, cutoff=0.5)
-    if near:
-        hint = f"near: {', '.join(near)}"
-    raise BadInput(
-        f"no {what} {value!r} {where}".rstrip() + f"; {hint or 'known: ' + ', '.join(names)}"
-    )
+    hint = near(value, names) or hint or f"known: {', '.join(names)}"
+    raise BadInput(f"no {what} {value!r:.80} {where}".rstrip() + f"; {hint}")
+
+
+class OneOf(click.Choice[str]):
+    """A choice among words, which says of another word which was meant."""
+
+    def get_invalid_choice_message(self, value: Any, ctx: click.Context | None) -> str:
+        text = super().get_invalid_choice_message(value, ctx)
+        hint = near(str(value), map(str, self.choices))
+        return f"{text.rstrip('.')}; {hint}" if hint else text
+
+
+class Group(click.Group):
+    """A group that says of an unknown command which was meant."""
+
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        names, word = self.list_commands(ctx), args[0]
+        if word not in names and not word.startswith("-"):
+            ctx.fail(f"no verb {word!r}; {near(word, names) or f'see: {ctx.command_path} --help'}")
+        return super().resolve_command(ctx, args)
+
+
+STATUSES = {
+    0: "done",
+    1: "",
+    2: "bad usage or input",
+    3: "",
+    4: "an output could not be written, which is said last",
+}
+
+
+def statuses(said: dict[int, str] | None = None) -> str:
+    """Return the end of a verb's help: its exit statuses, the usual ones but for what is said."""
+    told = {status: text for status, text in (STATUSES | (said or {})).items() if text}
+    return "Exit status: " + "; ".join(f"{status} {text}" for status, text in told.items()) + "."
 
 
 def repeatable(name: str, field: str, text: str, **more: Any) -> Decorator[Any]:
     """Return an option that may be given several times; `field` has all of its values."""
+    if "type" not in more:
+        more.setdefault("metavar", name.strip("-").upper())
     return click.option(name, field, multiple=True, help=f"{text} (repeatable).", **more)
 
 
@@ -84,25 +130,30 @@ def repeatable(name: str, field: str, text: str, **more: Any) -> Decorator[Any]:
 def _solids(_: click.Context, __: click.Parameter, names: tuple[str, ...]) -> tuple[str, ...]:
     from raycert.cases.model import SOLIDS
 
-    if wrong := [name for name in names if name not in SOLIDS]:
-        raise click.BadParameter(f"{', '.join(wrong)}; known: {', '.join(SOLIDS)}")
+    for name in names:
+        if name not in SOLIDS:
+            unknown("solid", name, SOLIDS)
     return names
 
 
 family_option = repeatable("--family", "families", "Only this family")
-tier_option = repeatable("--tier", "tiers", "Only this tier", type=click.Choice(TIERS))
+tier_option = repeatable("--tier", "tiers", "Only this tier", type=OneOf(TIERS))
 solid_option = repeatable("--solid", "solids", "Only this solid type", callback=_solids)
 id_option = repeatable("--id", "ids", "Only this row")
 golden_option = click.option(
-    "--golden", type=KNOWN_FOLDER, help="Golden files to use instead of the installed ones."
+    "--golden",
+    type=KNOWN_FOLDER,
+    metavar="DIR",
+    help="Golden files to use instead of the installed ones.",
 )
-precision_option = click.option(
-    "--precision",
-    type=click.Choice(PRECISIONS),
-    default="binary64",
-    show_default=True,
-    help="Number format of the rows.",
-)
+
+
+def precision_of(what: str) -> Decorator[Any]:
+    text, kind = f"Number format of {what}.", OneOf(PRECISIONS)
+    return click.option("--precision", type=kind, default="binary64", show_default=True, help=text)
+
+
+precision_option = precision_of("the rows")
 
 
 def read(precision: str, golden: Path | None) -> Corpus:
@@ -129,7 +180,7 @@ def find(corpus: Corpus, id: str) -> GoldenRow:
 
 def level_option(default: Level, text: str | None = None) -> Decorator[Any]:
     return click.option(
-        "--level", type=click.Choice(LEVELS), default=default, show_default=True, help=text
+        "--level", type=OneOf(LEVELS), default=default, show_default=True, help=text
     )
 
 
@@ -144,18 +195,49 @@ def check_convention(text: str) -> None:
 
 # The implementation that is asked.
 
-BUILT_IN = {
-    "oracle": ("raycert", "serve", "oracle"),
-    "reference": ("raycert.reference",),
-}
 TARGETS = """\b
 TARGET is one of
   reference, oracle       the built-in implementations
-  -- COMMAND ARGUMENT...  a program that speaks the line protocol
+  './tracer --fast'       a program that speaks the line protocol, with its
+                          arguments; last on the line also: -- ./tracer --fast
   module:function         a Python callable: function(solid, ray) -> pairs
   ./tracer.so             a shared library with the signature of raycert.h
                           (raycert harness library --out DIR)
 """
+
+
+def _parted(word: str) -> tuple[str, ...]:
+    """Return the words in one, as a shell parts them; of a file there is only its name."""
+    if Path(word).is_file():
+        return (word,)
+    try:
+        words = tuple(shlex.split(word))
+    except ValueError as error:
+        raise click.BadParameter(f"{word!r:.80}: {error}") from None
+    if not words:
+        raise click.BadParameter("names no implementation")
+    return words
+
+
+def _of_argument(_: click.Context, __: click.Parameter, words: tuple[str, ...]) -> tuple[str, ...]:
+    return _parted(words[0]) if len(words) == 1 else words
+
+
+def _of_option(_: click.Context, __: click.Parameter, given: Any) -> Any:
+    if isinstance(given, tuple):
+        return tuple(map(_parted, given))
+    return None if given is None else _parted(given)
+
+
+target_argument = click.argument(
+    "target", nargs=-1, required=True, type=click.UNPROCESSED, callback=_of_argument
+)
+
+
+def target_option(text: str, field: str = "target", **more: Any) -> Decorator[Any]:
+    """Return an option that names a target; TARGETS says how."""
+    more = {"metavar": "TARGET", "callback": _of_option, "help": text, **more}
+    return click.option("--target", field, **more)
 
 
 def limits_options(function: Function) -> Function:
@@ -178,12 +260,9 @@ def limits(options: dict[str, Any]) -> Limits:
 
 def aim(words: tuple[str, ...]) -> Target:
     """Return the target that the words name; end with exit status 3 where they name none."""
-    from raycert.oracle.client.apart import ours
     from raycert.oracle.client.dialogue import Unusable
     from raycert.oracle.client.target import target
 
-    if len(words) == 1 and words[0] in BUILT_IN:
-        words = ours(*BUILT_IN[words[0]])
     try:
         return target(words)
     except Unusable as error:
@@ -193,6 +272,16 @@ def aim(words: tuple[str, ...]) -> Target:
 def spelled(words: tuple[str, ...]) -> tuple[str, ...]:
     """Return the words as a command line has to spell them: `--` before what may have options."""
     return words if len(words) == 1 and not words[0].startswith("-") else ("--", *words)
+
+
+def seed_option(default: int | None, text: str) -> Decorator[Any]:
+    shown, kind = default is not None, click.IntRange(min=0)
+    return click.option("--seed", type=kind, default=default, show_default=shown, help=text)
+
+
+def workers_option(default: int, most: int | None = None) -> Decorator[Any]:
+    kind, text = click.IntRange(1, most), "Processes of this machine."
+    return click.option("--workers", type=kind, default=default, show_default=True, help=text)
 
 
 # What is written, and what is seen meanwhile.
@@ -237,6 +326,20 @@ class Output(click.Path):
 FILE = Output(dir_okay=False, path_type=Path)
 FILE_OR_DASH = Output(dir_okay=False, allow_dash=True)
 FOLDER = Output(file_okay=False, path_type=Path)
+
+
+def out_option(
+    kind: Output, text: str | None = None, field: str = "out", **more: Any
+) -> Decorator[Any]:
+    """Return the option for what a verb makes; `kind` is one of the three types."""
+    metavar = "DIR" if kind is FOLDER else "FILE"
+    return click.option("-o", "--out", field, type=kind, metavar=metavar, help=text, **more)
+
+
+def json_option(text: str, field: str = "out") -> Decorator[Any]:
+    """Return the option for what a verb finds, as JSON."""
+    text = f"{text}, as JSON; - is standard output."
+    return click.option("--json", field, type=FILE_OR_DASH, metavar="FILE", help=text)
 
 
 @contextmanager

@@ -8,12 +8,19 @@ from typing import Any
 
 import click
 
-from raycert.oracle.commands.options import counting
-from raycert.oracle.commands.scenes import needs, read, scene_argument
+from raycert.oracle.commands.options import (
+    OneOf,
+    counting,
+    json_option,
+    needs,
+    statuses,
+    write_out,
+)
+from raycert.oracle.commands.scenes import read, scene_argument
 from raycert.oracle.reports.foreign import say
 
 SHOWS = ("depth", "normal", "thickness", "count")
-EPILOG = """\b
+EPILOG = f"""\b
 The table:
   with      milliseconds of the whole picture, with everything left out that can be
   without   the same with this one item put back
@@ -26,28 +33,27 @@ are noise. The pictures are the same to the bit with and without each item.
 Examples:
   raycert plan die
   raycert plan forest --show thickness --size 320x240
-  raycert plan pipe --json
+  raycert plan pipe --json -
   raycert bench --section scenes           what a scene costs as it grows
   raycert render die --off bounds          the same picture, slower
+
+{statuses({3: "a package is missing"})}
 """
 
 
 @click.command(epilog=EPILOG)
 @scene_argument
-@click.option("--show", type=click.Choice(SHOWS), default="depth", show_default=True)
+@click.option("--show", type=OneOf(SHOWS), default="depth", show_default=True)
 @click.option("--size", metavar="WxH", default="320x240", show_default=True, help="Pixels.")
 @click.option("--repeats", type=click.IntRange(1, 100), default=5, show_default=True)
-@click.option("--solids", type=int, hidden=True)
-@click.option("--json", "as_json", is_flag=True, help="As data.")
+@json_option("Instead: the table")
 def plan(scene: str | None, **options: Any) -> None:
     """Print what the plan of SCENE leaves out and why, and time each item with and without.
 
     SCENE is a file or the name of a scene that comes with raycert. A plan is compiled from solids
     and camera before the first ray.
     """
-    if options["solids"] is not None:
-        raise click.UsageError("--solids is now: raycert bench --section scenes")
-    needs("numpy")
+    needs("plan", "speed", "numpy")
     read_scene, name = read(scene, options["size"])
     from raycert.oracle.measure.pictures import worth
 
@@ -57,8 +63,8 @@ def plan(scene: str | None, **options: Any) -> None:
     items = [asdict(row.item) | {"with": row.with_it, "without": row.without} for row in rows]
     result = {"scene": name, "size": list(read_scene.size), "show": options["show"]}
     result |= {"items": items, "planned": planned, "plain": plain}
-    if options["as_json"]:
-        say(json.dumps(result, indent=1))
+    if options["out"]:
+        write_out(options["out"], json.dumps(result, indent=1) + "\n")
     else:
         _print(**result)
 

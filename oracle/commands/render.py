@@ -9,8 +9,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from raycert.oracle.commands.options import FILE, BadInput, counting, repeatable, write_out
-from raycert.oracle.commands.scenes import answer, needs, read, scene_argument, start
+from raycert.oracle.commands.options import (
+    FILE,
+    BadInput,
+    OneOf,
+    counting,
+    needs,
+    out_option,
+    repeatable,
+    statuses,
+    write_out,
+)
+from raycert.oracle.commands.scenes import answer, read, scene_argument, start
 from raycert.oracle.reports.foreign import say
 
 if TYPE_CHECKING:
@@ -20,6 +30,10 @@ SHOWS = ("depth", "normal", "thickness", "count", "error")
 BOUND = 64
 """The k that the level `stable` allows."""
 
+STATUSES = {
+    1: "an error is above 64, the bound of the level stable",
+    3: "a package is missing, or the tracer failed",
+}
 EPILOG = """\b
 What is shown:
   depth      the distance along the ray to the first hit
@@ -35,8 +49,8 @@ Examples:
   raycert render die
   raycert render pipe --show thickness -o pipe.png
   raycert render cylinder --show error --size 160x120
-  raycert render far --show error --size 160x120 --tracer textbook
-  raycert render far --pixel 48,75 | raycert explain --json -
+  raycert render far --show error --size 160x120 --method textbook
+  raycert render far --pixel 48,75 | raycert explain --case -
 
 \b
 A scene of your own:
@@ -46,17 +60,18 @@ A scene of your own:
    "size": [640, 480]}
 An orthographic camera has "height", what it sees from bottom to top, in place of
 the vertical angle "fov" in degrees.
-"""
+
+""" + statuses(STATUSES)
 
 
 @click.command(epilog=EPILOG)
 @scene_argument
-@click.option("-o", "--out", type=FILE, help="PNG.  [SCENE-SHOW.png]")
-@click.option("--show", type=click.Choice(SHOWS), default="depth", show_default=True)
+@out_option(FILE, "The PNG.  [SCENE-SHOW.png]")
+@click.option("--show", type=OneOf(SHOWS), default="depth", show_default=True)
 @click.option("--size", metavar="WxH", help="Pixels, in place of the scene's size.")
 @click.option(
-    "--tracer",
-    type=click.Choice(("reference", "textbook")),
+    "--method",
+    type=OneOf(("reference", "textbook")),
     default="reference",
     show_default=True,
     help="textbook: b^2 - a c in plain doubles, to see what it loses.",
@@ -72,7 +87,7 @@ def render(scene: str | None, out: Path | None, **options: Any) -> None:
     time, and what the plan left out (see: raycert plan).
 
     --show error judges every pixel's list exactly and says which pixel is worst; start with
-    --size 160x120. Exit 1 if an error is above 64, the bound of the level stable.
+    --size 160x120.
     """
     if options["listed"]:
         _list()
@@ -81,7 +96,7 @@ def render(scene: str | None, out: Path | None, **options: Any) -> None:
     if options["pixel"]:
         say(_pixel(read_scene, options["pixel"]))
         return
-    needs("numpy", "PIL")
+    needs("render", "plots", "numpy", "PIL")
     out = out or FILE.convert(f"{name}-{options['show']}.png", None, None)
     raise SystemExit(_render(read_scene, scene or "", out, options))
 
@@ -100,7 +115,7 @@ def _list() -> None:
 
 
 def _render(scene: Scene, source: str, out: Path, options: dict[str, Any]) -> int:
-    show, tracer, size = options["show"], options["tracer"], options["size"]
+    show, tracer, size = options["show"], options["method"], options["size"]
     began = time.perf_counter()
     at_work = start(scene, "lists" if show == "error" else show, tracer, options["off"])
     # The tracer runs in a process of its own while the picture's packages are loaded here.
@@ -142,7 +157,7 @@ def _print_errors(rows: list[list[float]], source: str) -> int:
     worst, x, y = max(every, key=itemgetter(0))
     above = [sum(k > bound for k, _, _ in every) for bound in (1, BOUND)]
     say(f"k at most {worst:.4g}; pixels above 1: {above[0]}, above {BOUND}: {above[1]}")
-    say(f"worst: raycert render {source} --pixel {x},{y} | raycert explain --json -")
+    say(f"worst: raycert render {source} --pixel {x},{y} | raycert explain --case -")
     return 1 if worst > BOUND else 0
 
 

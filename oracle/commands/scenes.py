@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from raycert.oracle.client.apart import ours
-from raycert.oracle.commands.options import BadInput, stop
+from raycert.oracle.commands.options import BadInput, stop, unknown
 
 if TYPE_CHECKING:
     from raycert.cases.scene import Scene
@@ -21,14 +21,6 @@ COMMAND = ours("raycert.reference.arrays")
 Tracer = subprocess.Popen[bytes]
 
 scene_argument = click.argument("scene", required=False)
-
-
-def needs(*packages: str) -> None:
-    """Stop, and say what to install, if a package is missing: exit 3."""
-    from importlib.util import find_spec
-
-    if missing := [name for name in packages if find_spec(name) is None]:
-        stop(f'{", ".join(missing)} missing: pip install "raycert[plots]"')
 
 
 def read(source: str | None, size: str | None) -> tuple[Scene, str]:
@@ -43,6 +35,8 @@ def read(source: str | None, size: str | None) -> tuple[Scene, str]:
     names = ", ".join(shipped())
     if not source:
         raise click.UsageError(f"name a scene: {names}, or a file")
+    if source not in shipped() and not Path(source).exists():
+        unknown("scene", source, shipped(), "and no such file")
     try:
         scene = load(source)
     except BadFile as error:

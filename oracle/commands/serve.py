@@ -7,25 +7,34 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from raycert.oracle.commands import streams
-from raycert.oracle.commands.options import PRECISIONS
+from raycert.oracle.commands.options import OneOf, precision_of, statuses
 
 if TYPE_CHECKING:
     from raycert.cases.model import Ray, Solid
 
-EPILOG = """\b
+EPILOG = f"""\b
 oracle     the exact lists, correctly rounded
 reference  the compact float64 tracer; it reads and writes decimals
 
 \b
-Try it:
-  echo '{"hello": 1}' | raycert serve oracle
+Examples:
+  echo '{{"hello": 1}}' | raycert serve oracle
+  raycert certify -- raycert serve oracle --precision binary32 --numbers bits
+
+{statuses()}
 """
 
 
 @click.command(epilog=EPILOG)
-@click.argument("name", type=click.Choice(["oracle", "reference"]))
-@click.option("--precision", type=click.Choice(PRECISIONS), default="binary64")
-@click.option("--numbers", type=click.Choice(["decimal", "hex", "bits"]), default="decimal")
+@click.argument("name", type=OneOf(("oracle", "reference")))
+@precision_of("the answers")
+@click.option(
+    "--numbers",
+    type=OneOf(("decimal", "hex", "bits")),
+    default="decimal",
+    show_default=True,
+    help="How a number is spelled.",
+)
 def serve(name: str, precision: str, numbers: str) -> None:
     """Answer the line protocol on standard input and output until the input ends."""
     if name == "reference":

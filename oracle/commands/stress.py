@@ -18,7 +18,13 @@ from raycert.oracle.commands.measuring import (
     write_files,
     write_rows,
 )
-from raycert.oracle.commands.options import counting, repeatable
+from raycert.oracle.commands.options import (
+    TARGETS,
+    counting,
+    repeatable,
+    statuses,
+    workers_option,
+)
 from raycert.oracle.reports.foreign import say
 
 if TYPE_CHECKING:
@@ -28,7 +34,8 @@ if TYPE_CHECKING:
     from raycert.oracle.measure.facets import Sides
     from raycert.oracle.measure.sweeps import Sweep
 
-EPILOG = """\b
+EPILOG = f"""{TARGETS}
+\b
 What it says, for example:
     start far from the solid: distance of the start / radius
     method     stable   sound   worst k   wrong
@@ -62,13 +69,13 @@ problem that takes one source of error away restores it.
 Examples:
   raycert stress --quick
   raycert stress --sweep far --method textbook --method reference
-  raycert stress --client './my_tracer --json' --out figures
+  raycert stress --target './my_tracer -q' --out figures
 
 A step has 24 rays (8 with --quick, which takes each third step), 48 in tilt-* and 192 in start,
 where failures are rare. --out writes stress.json, stress.csv and the plots (needs
 "raycert[plots]"). Ctrl-C ends the run and keeps what is measured.
 
-Exit status: 0 done, 1 interrupted, 2 bad usage, 3 a client could not be run.
+{statuses({1: "interrupted", 3: "a target could not be run"})}
 """
 
 
@@ -76,7 +83,7 @@ Exit status: 0 done, 1 interrupted, 2 bad usage, 3 a client could not be run.
 @repeatable("--sweep", "sweeps", "Only this sweep")
 @ways_options
 @click.option("--quick", is_flag=True, help="Within a minute: each third step, 8 rays.")
-@click.option("--workers", type=click.IntRange(min=1), default=2, show_default=True)
+@workers_option(2)
 @held()
 def stress(**options: Any) -> None:
     """Set the error of many ways to answer rays against how stiff the problem is."""
@@ -84,9 +91,9 @@ def stress(**options: Any) -> None:
     from raycert.oracle.measure.catalog import BESIDE, WAYS
     from raycert.oracle.measure.sweeps import SWEEPS
 
-    known(options["sweeps"], SWEEPS, "--sweep")
-    every = BESIDE if options["clients"] else [way.name for way in WAYS if way.stress]
-    ways, notes = chosen(options["names"] or every, options["clients"])
+    known("sweep", options["sweeps"], SWEEPS)
+    every = BESIDE if options["targets"] else [way.name for way in WAYS if way.stress]
+    ways, notes = chosen(options["names"] or every, options["targets"])
     sweeps = tuple(SWEEPS[name] for name in dict.fromkeys(options["sweeps"]) or SWEEPS)
     quick, seed = options["quick"], options["seed"]
     plan = curves.Itinerary(tuple(ways), sweeps, seed, quick, options["workers"])

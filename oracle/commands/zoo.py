@@ -15,13 +15,15 @@ from raycert.cases.corpus import Corpus
 from raycert.cases.protocol import ANSWERS, Hello
 from raycert.oracle.certify.naming import TROUBLES, score
 from raycert.oracle.commands.options import (
-    FILE,
     FOLDER,
     PRECISIONS,
     counting,
     golden_option,
+    json_option,
     read,
     repeatable,
+    statuses,
+    unknown,
     write_out,
 )
 from raycert.oracle.reports.foreign import say
@@ -33,8 +35,8 @@ HELP = """Try planted wrong tracers on the golden rows: which family refuses whi
 
 Each fault has a family that was made for it, its home, which has to refuse it in the way that is
 expected. A fault that no row refuses is a missing golden row.
-
-\b
+"""
+EPILOG = f"""\b
 Examples:
   raycert zoo
   raycert zoo --fault no-clip --fault diameter    who refuses these
@@ -42,7 +44,7 @@ Examples:
   raycert zoo --write-smoke oracle/zoo/smoke      choose the smoke rows anew
   raycert zoo --diagnose 50                       how well certify names faults
 
-Exit status: 0 every fault is refused by its home, 1 one is not, 2 bad usage.
+{statuses({0: "every fault is refused by its home", 1: "one is not"})}
 """
 SMOKE = "Choose the rows of certify --smoke, and write their ids there."
 DIAGNOSE = """Take each fault, and N mixtures of two and three, for unknown subjects, and N tracers
@@ -55,22 +57,23 @@ WIDE = 100
 """From this width on there is room for the judge's words."""
 
 
-@click.command(help=HELP)
+@click.command(help=HELP, epilog=EPILOG)
 @repeatable("--fault", "names", "Only this", metavar="NAME")
 @golden_option
-@click.option("--json", "out", type=FILE, metavar="FILE")
+@json_option("The matrix")
 @click.option("--write-smoke", "folder", type=FOLDER, help=SMOKE)
 @click.option("--diagnose", "count", type=click.IntRange(min=1), metavar="N", help=DIAGNOSE)
 def zoo(
     names: tuple[str, ...],
     golden: Path | None,
-    out: Path | None,
+    out: str | None,
     folder: Path | None,
     count: int | None,
 ) -> None:
     """Try planted wrong tracers on the golden rows."""
-    if unknown := [name for name in names if name not in BY_NAME]:
-        raise click.BadParameter(f"no such fault: {', '.join(unknown)}", param_hint="--fault")
+    for name in names:
+        if name not in BY_NAME:
+            unknown("fault", name, BY_NAME)
     if folder:
         _write_smoke(golden, folder)
         return

@@ -160,8 +160,8 @@ def read(form: str | bytes | Mapping[str, Any], precision: str = "binary64") -> 
     """Return what a JSON object, or its text, describes; `Refused` names what is wrong in it.
 
     A solid has a `type`, a ray an `origin`; a case has a `solid` and a `ray`, and is returned as
-    that pair; a golden row, as `raycert show ID --json` prints it, has its answer too. Numbers are
-    all JSON numbers or all hex floats.
+    that pair; a golden row, as `raycert show ID --json -` prints it, has its answer too. Numbers
+    are all JSON numbers or all hex floats.
 
     >>> read('{"type": "sphere", "center": [0, 0, 0], "radius": 0.5}')
     Sphere(center=(0.0, 0.0, 0.0), radius=0.5)

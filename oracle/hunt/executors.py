@@ -28,6 +28,7 @@ from pickle import PickleError
 from typing import Any, Protocol
 from uuid import uuid4
 
+from raycert.cases.hints import lacking
 from raycert.cases.workers import Workers
 from raycert.oracle.hunt.unit import Haul, Unit
 
@@ -190,7 +191,7 @@ class Cluster:
         try:
             import distributed
         except ImportError:
-            raise Lost('--scheduler needs Dask: pip install "raycert[cluster]"') from None
+            raise Lost(lacking("--scheduler", "cluster", "distributed")) from None
         self._work, self._name = Sent(work, version("raycert")), uuid4().hex[:8]
         self._client: Any = None
         try:

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Literal, TypeVar
 
+from raycert.cases.hints import lacking
 from raycert.cases.model import Ray, Solid
 from raycert.oracle.exact.intervals import Intervals
 from raycert.oracle.exact.surd import Surd, decimal
@@ -55,7 +56,7 @@ def load(name: str) -> Witness:
     except ImportError as error:
         if name not in EXTRAS:
             raise
-        message = f'{name} needs {error.name}: pip install "raycert[{name}]"'
+        message = lacking(name, name, str(error.name).partition(".")[0])
         raise Missing(message, name=error.name) from None
     return witness
 

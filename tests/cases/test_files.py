@@ -270,10 +270,10 @@ def test_json_that_cannot_be_used_is_refused_by_file_and_place(
 ) -> None:
     path = tmp_path / "x.json"
     path.write_bytes(data)
-    for verb in (("render",), ("report",), ("explain", "--json")):
+    for verb in (("render",), ("report",), ("explain", "--case")):
         result = run(*verb, path)
         assert result.exit_code == 2, result.output
-        name = "--json" if verb[0] == "explain" else str(path)
+        name = "--case" if verb[0] == "explain" else str(path)
         assert name in result.stderr
         assert words in result.stderr
         assert result.stderr.replace("\n", "").isprintable()

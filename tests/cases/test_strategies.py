@@ -235,7 +235,7 @@ def test_without_hypothesis_it_says_what_to_install(monkeypatch: pytest.MonkeyPa
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
-    with pytest.raises(ImportError, match=r'needs Hypothesis: pip install "raycert\[hunt\]"'):
+    with pytest.raises(ImportError, match=r'needs hypothesis: pip install "raycert\[hunt\]"'):
         spec.loader.exec_module(module)
 
 

@@ -49,7 +49,7 @@ def test_files_are_written_on_request(tmp_path: Path) -> None:
 
 
 def test_a_client_runs_beside_the_methods() -> None:
-    found = run(*ONE, "--method", "oracle", "--client", "raycert.reference.tracer:intersect")
+    found = run(*ONE, "--method", "oracle", "--target", "raycert.reference.tracer:intersect")
     assert found.exit_code == 0, found.output
     assert "raycert.reference.tracer:intersect" in found.output
 
@@ -57,14 +57,14 @@ def test_a_client_runs_beside_the_methods() -> None:
 @pytest.mark.parametrize(
     ("words", "status", "text"),
     [
-        (("--scenario", "nowhere"), 2, "there is no 'nowhere'; there are random"),
-        (("--method", "guess"), 2, "there is no 'guess'"),
+        (("--scenario", "nowhere"), 2, "no scenario 'nowhere'; known: "),
+        (("--method", "guess"), 2, "no method 'guess'"),
         (("--rays", "0"), 2, "--rays"),
         (("--section", "memory"), 2, "'memory' is not one of"),
         (("--seed", "-1"), 2, "--seed"),
-        (("--client", "no-such-program"), 3, "cannot start"),
-        (("--client", "'unclosed"), 2, "--client"),
-        (("--client", ""), 2, "--client"),
+        (("--target", "no-such-program"), 3, "cannot start"),
+        (("--target", "'unclosed"), 2, "--target"),
+        (("--target", ""), 2, "--target"),
     ],
 )
 def test_bad_usage_is_told_before_any_work(words: tuple[str, ...], status: int, text: str) -> None:
@@ -88,7 +88,7 @@ def test_sections_and_methods_are_listed() -> None:
 
 def test_whole_commands_are_timed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sections, "COMMANDS", (("--help", 1),))
-    found = run(*ONE, "--method", "oracle", "--commands")
+    found = run(*ONE, "--method", "oracle", "--section", "methods", "--section", "commands")
     assert "raycert --help" in found.output
     assert found.output.index("random: 8 rays") < found.output.index("raycert --help")
 
@@ -111,7 +111,7 @@ def test_sections_come_in_one_order_and_are_written(
 
 
 def test_without_numpy_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("raycert.oracle.measure.way.find_spec", lambda name: None)
+    monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     found = run("--section", "scenes")
     assert found.exit_code == 3
     assert "raycert[speed]" in found.output

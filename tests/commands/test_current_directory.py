@@ -34,16 +34,16 @@ PACKAGES = {"cases", "oracle", "tests", "rich"}
 
 SPHERE = '{"solid": {"type": "sphere", "center": [0,0,0], "radius": 1},'
 SPHERE += '"ray": {"origin": [-3,0,0], "direction": [1,0,0]}}'
-CASE = ("--json", "case.json")
+CASE = ("--case", "case.json")
 WORK: Mapping[str, tuple[str, ...]] = {
     "certify": ("reference", "--golden", "golden", "--html", "page.html", "--junit", "units.xml"),
-    "explain": (*CASE, "--html", "case.html", "--with", "oracle"),
+    "explain": (*CASE, "--html", "case.html", "--target", "oracle"),
     "serve": ("reference",),
     "hunt": ("reference", "--cases", "2", "--workers", "2", "--no-golden"),
     "map": (*CASE, "--x", "ray.origin[0]", "--y", "ray.origin[1]", "--cells=3", "--out=map.png"),
     "render": ("die", "--size", "8x6"),
     "plan": ("die", "--size", "8x6", "--repeats", "1"),
-    "crosscheck": ("--json", SPHERE, "--witness", "definition"),
+    "crosscheck": ("--case", "case.json", "--witness", "definition"),
     "bench": ("--quick", "--scenario", "random", "--rays", "4", "--method", "oracle"),
     "stress": ("--quick", "--sweep", "far", "--method", "oracle", "--workers", "2"),
 }

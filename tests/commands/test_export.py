@@ -31,6 +31,10 @@ def run(golden: Path, *words: str) -> Result:
     return CliRunner().invoke(export, [*words, "--golden", str(golden)])
 
 
+PARTS = ("difference", "sphere", "union", "cylinder", "half_space")
+DECLARED = " ".join(f"--declared {name}" for name in PARTS)
+
+
 class Reader:
     """Reads a row token by token; blanks and tabs are alike to it."""
 
@@ -158,8 +162,11 @@ def test_the_header_documents_the_grammar(golden: Path) -> None:
     [
         ("--family tree", ["tree/tree"]),
         ("--tier stiff --tier generic", ["plain/slab", "plain/tube", "plain/far", "tree/tree"]),
-        ("--solids slab,infinite_cylinder", ["plain/slab", "plain/tube"]),
-        ("--solids difference,sphere,union,cylinder,half_space --family tree", ["tree/tree"]),
+        ("--declared slab --declared infinite_cylinder", ["plain/slab", "plain/tube"]),
+        (
+            f"{DECLARED} --family tree",
+            ["tree/tree"],
+        ),
     ],
 )
 def test_rows_are_selected(golden: Path, words: str, ids: list[str]) -> None:
@@ -168,7 +175,7 @@ def test_rows_are_selected(golden: Path, words: str, ids: list[str]) -> None:
 
 
 def test_a_tree_needs_all_its_types(golden: Path) -> None:
-    result = run(golden, "--solids", "difference,sphere")
+    result = run(golden, "--declared", "difference", "--declared", "sphere")
     assert result.exit_code == 2
     assert "no row" in result.stderr
 
@@ -186,8 +193,8 @@ def test_a_file_is_written_whole(golden: Path, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        ("--family plane", "near: plain"),
-        ("--solids cilinder", "near: cylinder"),
+        ("--family plane", "did you mean plain"),
+        ("--declared cilinder", "did you mean cylinder"),
         ("--tier hard", "hard"),
         ("--out /dev/null/golden.tsv", "--out"),
     ],

@@ -107,7 +107,7 @@ def test_neither_can_a_function_nor_a_module(here: Path) -> None:
     target = "hostile_answers:answer"
     assert "[red]" in say("certify", "--id", ROW, target)
     assert "[red]" in say("certify", "--id", ROW, "hostile_import:answer")
-    say("explain", *ray, "--html", "x.html", "--with", target)
+    say("explain", *ray, "--html", "x.html", "--target", target)
     assert unsafe((here / "x.html").read_text("utf-8")) == []
     axes = ("--x", "ray.origin[1]", "--y", "solid.radius", "--cells", "2")
     say("map", *ray, *axes, "--target", target, "--out", "x.csv", "--out", "x.svg")

@@ -90,10 +90,10 @@ def test_the_legend_names_every_flag(golden: Path) -> None:
 @pytest.mark.parametrize(
     ("words", "near"),
     [
-        ("--flag tangnt", "near: tangent"),
-        ("--family plane", "near: plain"),
-        ("--row thru", "near: through"),
-        ("--solid cylinder2", "near: cylinder"),
+        ("--flag tangnt", "did you mean tangent"),
+        ("--family plane", "did you mean plain"),
+        ("--row thru", "did you mean through"),
+        ("--solid cylinder2", "did you mean cylinder"),
         ("--touch edge", "known: cap, none, rim"),
     ],
 )
@@ -132,7 +132,7 @@ def test_show_prints_what_the_file_holds(golden: Path) -> None:
 
 
 def test_show_json_is_the_line_of_the_file(golden: Path) -> None:
-    line = shown(golden, "plain/far", "--json").stdout
+    line = shown(golden, "plain/far", "--json", "-").stdout
     assert line in (golden / "binary64" / "plain.jsonl").read_text()
     assert json.loads(line)["id"] == "plain/far"
 
@@ -151,8 +151,8 @@ def test_show_fits_the_screen_and_full_cuts_nothing(golden: Path) -> None:
 @pytest.mark.parametrize(
     ("id", "words"),
     [
-        ("plain/trough", "near: plain/through"),
-        ("through", "near: plain/through"),
+        ("plain/trough", "did you mean plain/through"),
+        ("through", "did you mean plain/through"),
         ("plain/zzzzzzzzzzzzzzzzz", "raycert list --family plain"),
         ("zzzz", "raycert list --families"),
     ],

@@ -24,6 +24,6 @@ def test_help_names_every_verb_once_in_groups() -> None:
     [("certfy", "did you mean certify?"), ("xyzzy", "see: raycert --help")],
 )
 def test_an_unknown_verb_is_met_with_advice(word: str, advice: str) -> None:
-    result = CliRunner().invoke(main, [word, "--level", "stable"])
+    result = CliRunner().invoke(main, [word, "--level", "stable"], prog_name="raycert")
     assert result.exit_code == 2
     assert f"no verb '{word}'; {advice}" in result.output

@@ -59,7 +59,7 @@ def test_a_golden_row_and_an_object_are_cases(tmp_path: Path) -> None:
         "ray": {"origin": [-3, 0, 0], "direction": [1, 0, 0]},
     }
     words = ("--x", "solid.of[0].center[1]", "--y", "ray.origin[0]=1,ray.direction[0]=1")
-    result = run("--json", "-", *words, *SMALL, "--out", out, given=json.dumps(form))
+    result = run("--case", "-", *words, *SMALL, "--out", out, given=json.dumps(form))
     assert result.exit_code == 0, result.output
 
 

@@ -24,7 +24,7 @@ def test_the_table_says_why_and_why_not(monkeypatch: pytest.MonkeyPatch) -> None
 
 
 def test_as_data() -> None:
-    result = run("forest", "--size", "16x12", "--repeats", "1", "--json", "--show", "count")
+    result = run("forest", "--size", "16x12", "--repeats", "1", "--json", "-", "--show", "count")
     form = json.loads(result.output)
     assert form["size"] == [16, 12]
     assert form["planned"] > 0 < form["plain"]
@@ -39,7 +39,6 @@ def test_as_data() -> None:
     ("words", "message"),
     [
         ((), "name a scene"),
-        (("--solids", "3"), "raycert bench --section scenes"),
         (("die", "--size", "axb"), "is not WxH"),
         (("die", "--show", "error"), "Invalid value for '--show'"),
     ],

@@ -59,12 +59,12 @@ def test_errors_are_small_in_every_scene(name: str) -> None:
 
 
 def test_the_textbook_fails_far_away_and_the_worst_pixel_can_be_explained() -> None:
-    result = run("far", "--size", "24x18", "--show", "error", "--tracer", "textbook")
+    result = run("far", "--size", "24x18", "--show", "error", "--method", "textbook")
     assert result.exit_code == 1
     assert float(result.output.split("k at most ")[1].split(";")[0]) > 1e5
     words = result.output.split("raycert render ")[1].split(" | ")[0].split()
     case = run(*words).output
-    derived = CliRunner().invoke(explain, ["--json", "-"], input=case)
+    derived = CliRunner().invoke(explain, ["--case", "-"], input=case)
     assert derived.exit_code == 0, derived.output
 
 
@@ -85,7 +85,7 @@ def test_the_shipped_scenes_are_listed() -> None:
     ("words", "message"),
     [
         ((), "name a scene"),
-        (("nowhere.json",), "nowhere.json: No such file or directory; scenes that come along"),
+        (("nowhere.json",), "no scene 'nowhere.json' and no such file; known: "),
         (("die", "--size", "32"), "--size: is not WxH"),
         (("die", "--size", "0x9"), "--size[0]: is not a whole number"),
         (("die", "--size", "8x6", "--pixel", "8,0"), "--pixel: 8,0 is not in a picture of 8x6"),
@@ -118,7 +118,7 @@ def test_a_missing_package_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     result = run("die")
     assert result.exit_code == 3
-    assert 'numpy, PIL missing: pip install "raycert[plots]"' in result.output
+    assert 'render needs numpy, pillow: pip install "raycert[plots]"' in result.output
 
 
 def test_a_tracer_that_fails_is_told(monkeypatch: pytest.MonkeyPatch) -> None:

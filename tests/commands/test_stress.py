@@ -47,7 +47,7 @@ def test_the_seed_draws_other_rays() -> None:
 
 
 def test_a_client_stands_beside_the_built_in() -> None:
-    result = call(*SHORT, "--client", f"{sys.executable} -m raycert.reference")
+    result = call(*SHORT, "--target", f"{sys.executable} -m raycert.reference")
     assert result.exit_code == 0, result.output
     said = " ".join(result.output.split())
     [_, after] = said.split("stable throughout, worst k: ")
@@ -59,9 +59,9 @@ def test_a_client_stands_beside_the_built_in() -> None:
 @pytest.mark.parametrize(
     ("words", "status", "text"),
     [
-        (("--sweep", "nowhere"), 2, "there is no 'nowhere'; there are far,"),
-        (("--method", "nobody"), 2, "there is no 'nobody'"),
-        (("--client", "no-such-program-here"), 3, "no-such-program-here"),
+        (("--sweep", "nowhere"), 2, "no sweep 'nowhere'; known: "),
+        (("--method", "nobody"), 2, "no method 'nobody'"),
+        (("--target", "no-such-program-here"), 3, "no-such-program-here"),
         (("--workers", "0"), 2, "--workers"),
     ],
 )
@@ -104,5 +104,5 @@ def test_without_matplotlib_there_are_no_plots(
     monkeypatch.setattr(sys.modules["raycert.oracle.commands.stress"], "_draw", absent)
     result = call(*SHORT, "--method", "oracle", "--out", str(tmp_path))
     assert result.exit_code == 0
-    assert "no plots without matplotlib" in result.output + result.stderr
+    assert "no plots: drawing needs matplotlib" in result.output + result.stderr
     assert {path.name for path in tmp_path.iterdir()} == {"stress.json", "stress.csv"}

@@ -124,8 +124,9 @@ def test_read_takes_every_form_of_the_project() -> None:
         CAN,
         ASIDE,
     )
-    row = python("-m", "raycert", "show", "tangent-exact/cylinder-straight-ahead-on-z", "--json")
-    assert raycert.read(row).id == "tangent-exact/cylinder-straight-ahead-on-z"
+    id = "tangent-exact/cylinder-straight-ahead-on-z"
+    row = python("-m", "raycert", "show", id, "--json", "-")
+    assert raycert.read(row).id == id
     for wrong in ("{", "[1]", {"type": "cone"}, {"solid": solid}):
         with pytest.raises(ValueError, match=r"is not|is missing"):
             raycert.read(wrong)  # type: ignore[arg-type]

@@ -163,8 +163,8 @@ def test_registry_has_the_witnesses_of_the_command() -> None:
     assert all(callable(load(name)) for name in NAMES)
 
 
-def run(*arguments: str) -> tuple[int, str]:
-    result = CliRunner().invoke(command, list(arguments), terminal_width=100)
+def run(*arguments: str, given: str | None = None) -> tuple[int, str]:
+    result = CliRunner().invoke(command, list(arguments), input=given, terminal_width=100)
     assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
     return result.exit_code, result.output
 
@@ -184,24 +184,29 @@ def test_command_prints_a_disagreement_and_how_to_repeat_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     case = (
-        '{"id":"7","solid":{"type":"slab","p":[0.0,0.0,1.0],"q":[0.0,0.0,2.0]},'
+        '{"id":"case-1","solid":{"type":"slab","p":[0.0,0.0,1.0],"q":[0.0,0.0,2.0]},'
         '"ray":{"origin":[0.0,0.0,0.0],"direction":[0.0,0.0,1.0]}}'
     )
     monkeypatch.setattr(traces, "_slab", lambda *_: ((ZERO, ZERO),))
-    status, output = run("--json", case, *ONLY)
+    status, output = run("--case", "-", *ONLY, given=case)
     assert status == 1
-    assert "7: the oracle and a witness differ" in output
+    assert "case-1: the oracle and a witness differ" in output
     assert "oracle      [[0, 0]]" in output
     assert "definition  [[1, 2]]" in output
     assert "enclosure   [[1.0, 2.0]]" in output
-    assert f"raycert crosscheck --witness definition --witness enclosure --json '{case}'" in output
+    again = "raycert crosscheck --witness definition --witness enclosure --case - <<< "
+    assert f"{again}'{case}'" in output
+
+
+NO_RADIUS = '{"solid": {"type": "sphere", "center": [0, 0, 0]}, "ray": '
+NO_RADIUS += '{"origin": [0, 0, 0], "direction": [1, 0, 0]}}'
 
 
 def test_command_refuses_what_is_no_case() -> None:
-    status, output = run("--json", '{"solid": {"type": "sphere", "center": [0, 0, 0]}}', *ONLY)
+    status, output = run("--case", "-", *ONLY, given=NO_RADIUS)
     assert status == 2
     assert "solid.radius: is missing" in output
-    assert run("--json", "{", *ONLY)[0] == 2
+    assert run("--case", "-", *ONLY, given="{")[0] == 2
     assert run("--fresh", "5", "--family", "far", *ONLY)[0] == 2
     assert run("--family", "no-such-family", *ONLY)[0] == 2
 
