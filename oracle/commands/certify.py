@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from raycert.cases.interrupts import held
-from raycert.oracle.commands.keeping import Place, check_distinct, check_record, place
+from raycert.oracle.commands.keeping import Place, check_distinct, check_written, place
 from raycert.oracle.commands.options import (
     FILE,
     FILE_OR_DASH,
@@ -169,7 +169,7 @@ def _place(plan: Plan, words: tuple[str, ...], options: dict[str, Any]) -> Place
     named |= {"--out": found and found.out, "--write-expectations": options["record"]}
     named |= {"--write-domain": options["write_domain"]}
     check_distinct(named)
-    check_record(options)
+    check_written(options)
     return found
 
 

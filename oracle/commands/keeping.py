@@ -119,13 +119,15 @@ def check_distinct(files: Mapping[str, Path | str | None]) -> None:
             raise click.UsageError(f"{other} and {option} name one file: {file}")
 
 
-def check_record(options: Mapping[str, Any]) -> None:
-    """Refuse to write expectations over others, with their reasons, that were not read."""
-    new, read = options["record"], options["expect"]
-    if new is None or options["force"] or not new.is_file() or not new.stat().st_size:
-        return
-    if read is None or not new.samefile(read):
-        raise BadInput(
-            f"--write-expectations: {new} is there, and its reasons would be lost; "
-            f"--expect {new} keeps those that hold, --force overwrites it"
-        )
+def check_written(options: Mapping[str, Any]) -> None:
+    """Refuse to overwrite what people add to once it is written: reasons, a domain."""
+    for option, new in (
+        ("--write-expectations", options["record"]),
+        ("--write-domain", options["write_domain"]),
+    ):
+        if new is None or options["force"] or not new.is_file() or not new.stat().st_size:
+            continue
+        read = options["expect"] if option == "--write-expectations" else None
+        if read is None or not new.samefile(read):
+            keeps = f"--expect {new} keeps reasons that hold, " if new == options["record"] else ""
+            raise BadInput(f"{option}: {new} is there already; {keeps}--force overwrites it")

@@ -200,15 +200,16 @@ TARGET is one of
   reference, oracle       the built-in implementations
   './tracer --fast'       a program that speaks the line protocol, with its
                           arguments; last on the line also: -- ./tracer --fast
-  module:function         a Python callable: function(solid, ray) -> pairs
+  module:function         a Python callable: function(solid, ray) -> pairs;
+                          in a file of any name: dir/tracer.py:function
   ./tracer.so             a shared library with the signature of raycert.h
                           (raycert harness library --out DIR)
 """
 
 
 def _parted(word: str) -> tuple[str, ...]:
-    """Return the words in one, as a shell parts them; of a file there is only its name."""
-    if Path(word).is_file():
+    """Return the words in one, as a shell parts them; a file, or a function in one, is one word."""
+    if Path(word).is_file() or Path(word.rpartition(":")[0]).is_file():
         return (word,)
     try:
         words = tuple(shlex.split(word))

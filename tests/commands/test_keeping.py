@@ -190,6 +190,14 @@ def test_reasons_are_not_lost_to_new_expectations() -> None:
     assert run(*write, "--expect", str(known), "--out", "x.json").exit_code < 2
 
 
+def test_a_domain_that_was_reviewed_stays(here: Path) -> None:
+    Path("hello.json").write_text("{}")
+    result = run("--hello", "hello.json", "--write-domain", "hello.json")
+    assert result.exit_code == 2
+    assert "--force" in result.output
+    assert Path("hello.json").read_text() == "{}"
+
+
 @pytest.mark.parametrize(
     "options",
     [

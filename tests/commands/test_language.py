@@ -255,7 +255,7 @@ def test_a_target_in_one_word_is_the_same_as_argument_and_option(
 
 
 def test_a_file_with_blanks_is_one_word(tmp_path: Path) -> None:
-    path = tmp_path / "my tracer"
-    path.touch()
-    found = load(PLACES["certify"]).make_context("certify", [str(path)])
-    assert found.params["target"] == (str(path),)
+    for name, word in (("my tracer", "my tracer"), ("my tracer.py", "my tracer.py:intersect")):
+        (tmp_path / name).touch()
+        found = load(PLACES["certify"]).make_context("certify", [str(tmp_path / word)])
+        assert found.params["target"] == (str(tmp_path / word),)
