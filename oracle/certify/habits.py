@@ -27,20 +27,27 @@ MOST = 0.75
 def habits(grades: Sequence[Grade]) -> list[str]:
     """Return what is done to each kind of degenerate input, solids that are alike in one line."""
     said: dict[str, list[str]] = {}
+    kinds = [degenerate(g.row.solid, g.row.ray) for g in grades]
+    plain = by_solid(g for g, of in zip(grades, kinds, strict=True) if not of)
+    usual = {group.name: Counter(map(_does, _failing(group.grades))) for group in plain}
     for kind in DEGENERACIES:
-        for group in by_solid(g for g in grades if kind in degenerate(g.row.solid, g.row.ray)):
-            for habit in _habit(group.grades):
+        for group in by_solid(g for g, of in zip(grades, kinds, strict=True) if kind in of):
+            for habit in _habit(group.grades, usual.get(group.name, Counter())):
                 said.setdefault(f"{INPUTS[kind]}: it {habit}", []).append(group.name)
     return [f"{', '.join(solids)} with {text}" for text, solids in said.items()]
 
 
-def _habit(grades: Sequence[Grade]) -> Iterator[str]:
-    """Yield what most of the rows that fail have in common."""
-    failing = [g for g in grades if g.fare("sound") != "right"]
+def _failing(grades: Sequence[Grade]) -> list[Grade]:
+    return [g for g in grades if g.fare("sound") != "right"]
+
+
+def _habit(grades: Sequence[Grade], usual: Counter[str]) -> Iterator[str]:
+    """Yield what most of the rows that fail have in common, and not with most others that fail."""
+    failing = _failing(grades)
     if not failing:
         return
     [(does, times)] = Counter(map(_does, failing)).most_common(1)
-    if times >= MOST * len(failing):
+    if times >= MOST * len(failing) and not 2 * usual[does] > usual.total():
         every = "always" if times == len(grades) else "mostly"
         aside = all(g.place == "degenerate" for g in grades)
         yield f"{every} {does}{' (part of no level: not declared)' if aside else ''}"

@@ -111,7 +111,7 @@ def _refusals(
     names = f"{', '.join(others)} and {last}" if others else last
     callable_ = code is not None and code.kind == "callable"
     _, reason = silence(refused[0].outcome) or ("", "")
-    seen = f"It {'raises' if callable_ else 'answers'} {cut(reason, 160)!r} on every easy {names}."
+    seen = f"It {'raises' if callable_ else 'answers'} {cut(reason, 100)!r} on every easy {names}."
     yield f"{seen} {CALLED if callable_ and not known else _declare(known, hello, code)}"
 
 
@@ -138,8 +138,8 @@ def _declare(known: Sequence[str], hello: Hello, code: InProcess | None) -> str:
     else:
         name = code.spec.rpartition(":")[2].rpartition(".")[2]
         where = f'declare what it knows: {name}.hello = {{"solids": {solids}}}'
-    every = " Its hello says nothing of `solids`, which means all types." if _all(hello) else ""
-    return f"Does it know that type?{every} If not, {where}."
+    every = "; without `solids` all types are asked" if _all(hello) else ""
+    return f"Does it know that? If not, {where}{every}."
 
 
 def _all(hello: Hello) -> bool:

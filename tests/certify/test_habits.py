@@ -60,3 +60,10 @@ def test_failures_of_all_sorts_are_no_habit() -> None:
     spheres = [row for row in spheres if "sphere" in row.id][:8]
     turns = {row.id: outcomes[n % 4] for n, row in enumerate(spheres)}
     assert habits([grade(row, turns[row.id], HELLO) for row in spheres]) == []
+
+
+def test_what_is_done_to_all_inputs_is_no_habit_of_degenerate_ones() -> None:
+    plain = [row for row in golden().rows if row.family == "table-through"][:20]
+    refused = Reply("", error="no cylinders")
+    grades = [grade(row, refused, HELLO) for row in (*ROWS, *plain)]
+    assert not [text for text in habits(grades) if text.startswith("cylinder")]
