@@ -84,7 +84,7 @@ def case_page(derivation: Derivation, answers: Sequence[Response], repeat: str) 
     """Return the page of a case and of the answers to it; `repeat` is the command that makes it."""
     row, fmt = derivation.row, derivation.format
     names = _names([one.word for one in answers])
-    said = [_drawn(one, name) for one, name in zip(answers, names, strict=True)]
+    said = [_drawn(one, name) for one, (name, _) in zip(answers, names, strict=True)]
     exact = lists(row, row.accept[ACCEPTED])
     lines = [line.plain.rstrip() for line in case_lines(row, fmt, 10**9)]
     return render(
@@ -103,7 +103,9 @@ def case_page(derivation: Derivation, answers: Sequence[Response], repeat: str) 
         decisive=row.decisive,
         wholes=wholes(row, exact, said),
         closeups=closeups(row, exact, said, fmt),
-        answers=[_answer(*named, derivation) for named in zip(answers, names, strict=True)],
+        answers=[
+            _answer(one, name, derivation) for one, (_, name) in zip(answers, names, strict=True)
+        ],
         steps=[
             {"heading": clean(step.heading), "lines": [_line(line) for line in step.lines]}
             for step in derivation.steps
@@ -129,7 +131,7 @@ def _drawn(one: Response, name: str) -> AnswerLine:
 
 def _answer(one: Response, name: str, derivation: Derivation) -> Json:
     graded, known_as = one.grade, clean(one.name, 60) if one.name != one.word else ""
-    form: Json = {"label": clean(name, 30), "name": known_as, "reason": clean(one.reason)}
+    form: Json = {"label": clean(name, LABEL), "name": known_as, "reason": clean(one.reason)}
     if graded is None:
         return form | {"said": "", "errors": [], "levels": []}
     match graded.said:
@@ -152,12 +154,23 @@ def _answer(one: Response, name: str, derivation: Derivation) -> Json:
     return form | answer | {"reason": clean(first)}
 
 
-def _names(words: Sequence[str]) -> list[str]:
-    """Return the ends of the words, `trace` of `my.code:trace`, numbered where they look alike."""
-    tails = [re.split("[:/]", word.strip().rstrip("/"))[-1] for word in words]
-    if len({clean(tail, NAME) for tail in tails}) == len(tails):
-        return tails
-    return [f"{i} {tail}" for i, tail in enumerate(tails, 1)]
+def _names(words: Sequence[str]) -> list[tuple[str, str]]:
+    """Return for each implementation a name beside its lines, and one in the table.
+
+    The ends of the words, `trace` of `my.code:trace`, or where those are alike `code:trace`. What
+    is alike or too long for a line has a number and what comes before the end, the number in both.
+    """
+    parts = [re.split("[:/]", word.strip().rstrip("/")) for word in words]
+    tails = [clean(part[-1], LABEL) for part in parts]
+    paths = [part[-2] if len(part) > 1 else part[0] for part in parts]
+    owners = [path.rpartition(".")[2] for path in paths]
+    wholes = [":".join(dict.fromkeys(pair)) for pair in zip(owners, tails, strict=True)]
+    for names in (tails, wholes):
+        if len({clean(name, NAME) for name in names}) == len(names):
+            return [(clean(name, NAME), clean(name, LABEL)) for name in names]
+    short = owners if len(set(owners)) == len(owners) else paths
+    told = enumerate(zip(short, words, strict=True), 1)
+    return [(clean(f"{i} {one}", NAME), clean(f"{i} {word}", LABEL)) for i, (one, word) in told]
 
 
 def _line(line: Fact | Table | Note) -> Json:
@@ -180,8 +193,8 @@ def _line(line: Fact | Table | Note) -> Json:
 
 ENDS = 8
 """At how many ends there is a close look."""
-NAME = 10
-"""Characters of a name that fit beside a line."""
+NAME, LABEL = 10, 30
+"""Characters of a name that fit beside a line, and in a table."""
 NARROW, WIDE = Fraction(5, 2), 60
 """Ulps to either side of an end: at least, and at most to have the ends of answers in."""
 USUAL = 900

@@ -12,5 +12,6 @@ page        the certificate as one HTML page, and the list of all forms
 gradebook   how many targets fare, as JSON, and its words
 gradetable  the same on a terminal, as Markdown and as a page
 picture     the pictures of one case
+bounds      the domains of a type of solid, declared and measured, as a picture and in words
 section     a ray and a solid in a plane: what to look at, from where, and how large
 """

@@ -16,7 +16,8 @@ from typing import Any
 
 import click
 
-LONG = 300
+LONG, CODE = 300, 8000
+"""Characters of a line, and of code, which is copied."""
 MARKS = {"Mn", "Me"}
 ELLIPSIS = "\u2026"
 
@@ -67,7 +68,7 @@ def code(text: str) -> str:
 
     A pipe in a table ends the cell even in code, so it is shown as its double-barred likeness.
     """
-    shown = clean(text, 1000).replace("|", "\u00a6")
+    shown = clean(text, CODE).replace("|", "\u00a6")
     fence = "`" * (max(map(len, findall("`+", shown)), default=0) + 1)
     pad = " " if shown.startswith("`") or shown.endswith("`") or not shown.strip() else ""
     return f"{fence}{pad}{shown}{pad}{fence}"

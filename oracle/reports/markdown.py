@@ -11,7 +11,7 @@ from html import escape
 from raycert.cases.levels import LEVELS
 from raycert.oracle.reports import findings, reading
 from raycert.oracle.reports.foreign import code, legible, plain
-from raycert.oracle.reports.inputs import intervals, said
+from raycert.oracle.reports.inputs import case_json, intervals, said
 from raycert.oracle.reports.reading import Json, count
 
 FAMILIES, ROWS = 20, 5
@@ -80,6 +80,9 @@ def _row(certificate: Json, failed: Json) -> tuple[str, ...]:
         f"- {code(failed['id'])}: {plain(failed['why'])}",
         f"  - {code(reading.fault(certificate, failed))}",
         f"  - answer {code(said(failed))}, expected {code(intervals(failed['expected']))}",
+        f"  - inputs {code(case_json(failed))}",
+        f"  - in hex {code(case_json(failed, hexed=True))}",
+        f"  - {code(failed['explain'])}",
         f"  - {code(failed['reproduce'])}",
     )
 

@@ -15,8 +15,9 @@ from raycert.cases.domain import read_tolerance
 from raycert.cases.levels import LEVELS
 from raycert.cases.table import PROBLEM_1, PROBLEM_2
 from raycert.oracle.reports import findings, reading
+from raycert.oracle.reports.bounds import domains
 from raycert.oracle.reports.foreign import clean, legible
-from raycert.oracle.reports.inputs import intervals, said
+from raycert.oracle.reports.inputs import PARTS, case_json, intervals, said, written
 from raycert.oracle.reports.junit import junit
 from raycert.oracle.reports.markdown import markdown
 from raycert.oracle.reports.picture import pictures
@@ -40,6 +41,10 @@ def page(certificate: Json) -> str:
         **_matrix(certificate),
         grid=_grid(certificate),
         columns=[row.name for row in PROBLEM_2],
+        domains=domains(certificate),
+        apart=reading.apart(certificate, together=True),
+        each=reading.apart(certificate),
+        easy=[_easy(said, first) for said, first in findings.easy(certificate)],
         worst=[_worst(certificate, shown) for shown in certificate["worst"]],
         listed=_listed(certificate),
         not_decisive=_not_decisive(certificate),
@@ -95,12 +100,28 @@ def _worst(certificate: Json, shown: Json) -> Json:
         "kind": shown["kind"],
         "why": clean(shown["why"]),
         "fault": reading.fault(certificate, shown, 300) if failed else "",
-        "answer": clean(said(shown), 400),
+        "answer": said(shown),
         "expected": intervals(shown["expected"]),
         "errors": [number(shown[name]) for name in ("strict_k", "squared_k", "ulps")],
-        "reproduce": clean(shown["reproduce"], 2000),
+        "inputs": _inputs(shown),
+        "hex": case_json(shown, hexed=True),
+        "explain": clean(shown["explain"], reading.LINE),
+        "reproduce": clean(shown["reproduce"], reading.LINE),
         "pictures": pictures(shown, certificate["corpus"]["precision"]),
     }
+
+
+def _inputs(case: Json) -> list[list[str]]:
+    """Return the code that names the inputs of a case, each line in parts that are not broken."""
+    lines = [f"{part} = {written(case[part])}" for part in PARTS]
+    return [
+        [f"{part}," for part in line.split(", ")[:-1]] + line.split(", ")[-1:] for line in lines
+    ]
+
+
+def _easy(said: str, case: Json) -> Json:
+    shown = {name: clean(str(case[name])) for name in ("answer", "expected")}
+    return {"said": said, "inputs": _inputs(case), **shown}
 
 
 def _listed(certificate: Json) -> list[Json]:

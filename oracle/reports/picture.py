@@ -20,7 +20,7 @@ from raycert.oracle.reports.foreign import clean
 from raycert.oracle.reports.reading import Json
 from raycert.oracle.reports.section import ASPECT, Slice, section
 
-WIDTH, GUTTER = 480, 66
+WIDTH, GUTTER = 480, 84
 """Width of a drawing, and of the column at its left that names the lines."""
 PLOT = WIDTH - GUTTER
 MIDDLE = GUTTER + PLOT / 2
@@ -410,4 +410,4 @@ def pointer(off: Fraction, y: float) -> Element:
     far = f"{float(ulps):+.3g} ulps".replace("e+", "e")
     if off > 0:
         return label(WIDTH - 4, y + 9, f"end at {far} \u2192", "off", "end")
-    return label(GUTTER + 4, y + 9, f"\u2190 end at {far}", "off")
+    return label(GUTTER + 10, y + 9, f"\u2190 end at {far}", "off")

@@ -16,8 +16,10 @@ from raycert.cases.row import GoldenRow
 from raycert.cases.vectors import dot
 from raycert.oracle.certify.grading import grade
 from raycert.oracle.explain.casepage import (
+    NAME,
     AnswerLine,
     Response,
+    _names,
     case_page,
     closeups,
     drawable,
@@ -205,6 +207,38 @@ def test_hostile_text_does_no_harm() -> None:
     text.encode()
 
 
+@pytest.mark.parametrize(
+    ("words", "names"),
+    [
+        (["reference"], [("reference", "reference")]),
+        (["my.code:trace", "./other"], [("trace", "trace"), ("other", "other")]),
+        (["a:hit", "b:hit"], [("a:hit", "a:hit"), ("b:hit", "b:hit")]),
+        (
+            ["one:intersect", "my.two:intersect", "./intersect"],
+            [
+                ("one:inter\u2026", "one:intersect"),
+                ("two:inter\u2026", "two:intersect"),
+                (".:intersect"[:9] + "\u2026", ".:intersect"),
+            ],
+        ),
+        (
+            ["a.t:intersect", "b.t:intersect"],
+            [("1 a.t", "1 a.t:intersect"), ("2 b.t", "2 b.t:intersect")],
+        ),
+    ],
+)
+def test_targets_carry_their_own_names(words: list[str], names: list[tuple[str, str]]) -> None:
+    """Three functions called `intersect` are told apart, in the pictures and in the table."""
+    assert _names(words) == names
+
+
+def test_names_are_never_alike_and_fit_beside_a_line() -> None:
+    words = [f"{'x' * 40}{i}:{'y' * 40}{i}" for i in range(12)]
+    for each in zip(*_names(words), strict=True):
+        assert len(set(each)) == len(words)
+    assert max(len(name) for name, _ in _names(words)) <= NAME
+
+
 @pytest.mark.parametrize("make", [hostile, lambda: case_page(derived(), [], "raycert explain")])
 def test_the_page_fits_in_a_browser_and_nothing_runs(
     make: "made_up.Callable[[], str]", tmp_path: Path
@@ -214,4 +248,5 @@ def test_the_page_fits_in_a_browser_and_nothing_runs(
         assert seen["width"] <= seen["room"], "the page scrolls sideways"
         assert seen["outside"] == 0, "text runs out of the page"
         assert seen["drawings"] >= 4
+        assert seen["collide"] == 0, "labels lie on one another"
         assert seen["scripts"] == seen["requests"] == 0

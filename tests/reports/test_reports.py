@@ -3,6 +3,7 @@
 import copy
 import re
 from collections.abc import Callable
+from html import unescape
 from html.parser import HTMLParser
 from io import StringIO
 
@@ -12,8 +13,9 @@ from rich.console import Console
 
 import shared.certificates as made_up
 from raycert.cases.model import Refused
+from raycert.oracle.reports.findings import kinds
 from raycert.oracle.reports.foreign import clean
-from raycert.oracle.reports.inputs import intervals
+from raycert.oracle.reports.inputs import case_json, intervals, written
 from raycert.oracle.reports.junit import junit
 from raycert.oracle.reports.markdown import code, markdown
 from raycert.oracle.reports.page import WRITERS, page
@@ -148,6 +150,21 @@ def test_a_code_span_holds_anything(text: str) -> None:
     assert fence[0] not in re.findall(r"`+", inner)
     assert "|" not in span
     assert "\n" not in span
+
+
+@every
+def test_a_failure_has_its_inputs_and_the_command_that_explains_it(name: str) -> None:
+    """In decimal and in hex, whole, whatever the length; the terminal has the decimals alone."""
+    form = made_up.bad()
+    text = " ".join(re.sub(r"<[^>]*>", "", unescape(ALL[name](form))).split())
+    shown = kinds(form)[0].first if name == "terminal" else form["worst"][0]
+    if name in ("junit", "markdown"):
+        shown = failing(form)[0]
+    decimal, coded = case_json(shown), case_json(shown, hexed=True)
+    solid, ray = (written(shown[part]) for part in ("solid", "ray"))
+    assert decimal in text or (solid in text and ray in text)
+    assert coded in text or name == "terminal"
+    assert shown["explain"] in text
 
 
 class Tags(HTMLParser):

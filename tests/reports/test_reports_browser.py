@@ -12,7 +12,7 @@ from shared.browser import probed
 from shared.certificates import Json
 
 
-@pytest.mark.parametrize("make", [made_up.good, made_up.bad, made_up.attacked])
+@pytest.mark.parametrize("make", [made_up.good, made_up.much, made_up.attacked])
 def test_the_page_fits_and_is_drawn_and_nothing_runs(
     make: Callable[[], Json], tmp_path: Path
 ) -> None:
@@ -23,6 +23,7 @@ def test_the_page_fits_and_is_drawn_and_nothing_runs(
         assert seen["outside"] == 0, "text runs out of the page"
         assert seen["drawings"] >= len(form["worst"])
         assert seen["smallest"] > 5
+        assert seen["collide"] == 0, "labels lie on one another"
         assert seen["scripts"] == seen["requests"] == 0
         assert "owned" not in seen["title"].replace("title='owned'", "")
         assert seen["heading"] < 500
@@ -35,6 +36,10 @@ def test_the_page_fits_and_is_drawn_and_nothing_runs(
         ("<img src='picture.png'>", lambda seen: seen["requests"] == 1),
         ("<style>p { background: url(x.png); }</style>", lambda seen: seen["requests"] == 1),
         ("<script>document.title='owned'</script>", lambda seen: seen["title"] == "owned"),
+        (
+            '<svg viewBox="0 0 99 9"><text y="8">one</text><text x="3" y="8">two</text></svg>',
+            lambda seen: seen["collide"] == 1,
+        ),
         ('<svg width="0" height="0"></svg>', lambda seen: seen["smallest"] == 0),
     ],
 )

@@ -5,16 +5,25 @@ from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
-from math import inf
+from math import inf, log10
 from xml.etree import ElementTree
 
 import pytest
 
 import shared.certificates as made_up
+from raycert.cases.domain import quantities
 from raycert.cases.formats import BINARY32, BINARY64
+from raycert.cases.forms import read_ray, read_solid
 from raycert.cases.model import Cylinder, Leaf, Ray, Solid, leaves, type_of
 from raycert.cases.row import GoldenRow
 from raycert.cases.vectors import dot, norm
+from raycert.oracle.reports.bounds import (
+    DecadeAxis,
+    QuantityLine,
+    domains,
+    failures,
+    quantity_lines,
+)
 from raycert.oracle.reports.picture import (
     GUTTER,
     MIDDLE,
@@ -227,3 +236,45 @@ def test_a_picture_that_is_off_by_a_little_is_noticed(field: str) -> None:
         tried += 1
         noticed += not alike(drawn(view, 0.0), off, pixel / 2)
     assert noticed == tried > 50
+
+
+def lines_of(form: made_up.Json, solid: str, level: str) -> list[QuantityLine]:
+    found = form["solids"][solid]["measured"][level]
+    return list(quantity_lines(form, found, failures(form, solid, level)))
+
+
+def test_the_domain_of_a_solid_has_a_tick_for_each_row_that_fails() -> None:
+    """Each tick is at the exact quantity of a failing row, and none is left out."""
+    form = made_up.bad()
+    rows = failures(form, "cylinder", "sound")
+    lines = {line.name: line for line in lines_of(form, "cylinder", "sound")}
+    assert len(rows) > 10
+    for row in rows:
+        solid, ray = read_solid(row["solid"], "", "hex"), read_ray(row["ray"], "", "hex")
+        for name, span in quantities(solid, ray).spans().items():
+            for x in span:
+                near = min(abs(log - log10(x)) for log in lines[name].failing)
+                assert near < 1e-9, (row["id"], name)
+    assert all(line.measured is None for line in lines.values()), "it fails on ordinary cases"
+
+
+def test_a_domain_is_drawn_where_it_ends_and_said_in_words() -> None:
+    form = made_up.much()
+    form["domain"] = {"declared": {"size": [0.01, 100.0]}, "words": "sizes 0.01 to 100"}
+    lines = {line.name: line for line in lines_of(form, "sphere", "sound")}
+    assert lines["distance"].measured == (None, 1000.0)
+    assert lines["distance"].words[2] == "up to 1000"
+    assert lines["distance"].is_beyond(3.1)
+    assert not lines["distance"].is_beyond(2.9)
+    assert lines["size"].declared == (0.01, 100.0)
+    assert lines["size"].words[1] == "0.01 to 100"
+    axis = DecadeAxis(-4, 4)
+    assert axis.bar((None, 1.0)) == (GUTTER, MIDDLE)
+    assert axis.bar((1e-2, None)) == (GUTTER + PLOT / 4, WIDTH)
+    assert {0} <= set(axis.numbers()) <= set(range(-4, 5))
+    (shown,) = [shown for shown in domains(form) if shown["solid"] == "sphere"]
+    root = ElementTree.fromstring(shown["drawing"])
+    assert "starts within 1000 sizes" in str(root.findtext("title"))
+    for bar in root.iter("rect"):
+        assert float(bar.get("x", "0")) >= GUTTER
+        assert float(bar.get("x", "0")) + float(bar.get("width", "0")) <= WIDTH + 0.2

@@ -26,6 +26,16 @@ OPTIONS = (
 )
 WIDTHS = (390, 1280)
 PROBE = """<script>
+// How many labels of a drawing lie on another, or run from the column of names into the plot.
+const collisions = (svg) => {
+  const boxes = [...svg.querySelectorAll("text")].map(text => text.getBoundingClientRect());
+  const plot = svg.querySelector(".rail, .frame"), edge = plot && plot.getBoundingClientRect().left;
+  const meet = (a, b) => a.left < b.right - 1 && b.left < a.right - 1
+    && a.top < b.bottom - 3 && b.top < a.bottom - 3;
+  const pairs = boxes.flatMap((a, i) => boxes.slice(i + 1).filter(b => meet(a, b)));
+  const left = svg.getBoundingClientRect().left + 1;
+  return pairs.length + boxes.filter(b => plot && b.left < left && b.right > edge).length;
+};
 addEventListener("load", () => {
   const found = {};
   for (const frame of document.querySelectorAll("iframe")) {
@@ -44,6 +54,7 @@ addEventListener("load", () => {
         + [...inner.styleSheets].flatMap(s => [...s.cssRules])
           .filter(rule => /url\\(|@import/.test(rule.cssText)).length,
       outside: texts.filter(e => e.getBoundingClientRect().right > frame.width + 1).length,
+      collide: [...inner.querySelectorAll("svg")].map(collisions).reduce((a, b) => a + b, 0),
       heading: inner.querySelector("h1").getBoundingClientRect().height,
     };
   }
