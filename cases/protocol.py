@@ -34,6 +34,12 @@ Answers = Literal["intervals", "first", "any"]
 ANSWERS: tuple[Answers, ...] = ("intervals", "first", "any")
 FromInside = Literal["zero", "exit", "miss"]
 FROM_INSIDE: tuple[FromInside, ...] = ("zero", "exit", "miss")
+REPLIES: dict[Answers, str] = {
+    "intervals": '{"id": ..., "intervals": [[enter, leave], ...]}',
+    "first": '{"id": ..., "first": t or null}',
+    "any": '{"id": ..., "hit": true or false}',
+}
+"""The form of a reply by what the hello says."""
 CHOICES: dict[str, Iterable[str]] = {
     "answers": ANSWERS, "precision": FORMATS, "numbers": SPELLINGS, "from_inside": FROM_INSIDE,
 }  # fmt: skip
@@ -276,7 +282,7 @@ def read_reply(line: bytes, hello: Hello, most: float = inf) -> Reply:
     message = decode(line)
     id = message.get("id")
     if not isinstance(id, str):
-        raise BadLine(f"has no id (a string): {_shown(line)}")
+        raise _formless("id (a string)", hello, line)
     if "unsupported" in message:
         return Reply(id, unsupported=_reason(message["unsupported"], line))
     if "error" in message:
@@ -288,12 +294,18 @@ def read_reply(line: bytes, hello: Hello, most: float = inf) -> Reply:
         return Reply(id, intervals=pairs)
     if hello.answers == "any":
         if not isinstance(message.get("hit"), bool):
-            raise BadLine(f"has no hit (true or false): {_shown(line)}")
+            raise _formless("hit (true or false)", hello, line)
         return Reply(id, hit=message["hit"])
     if "first" not in message:
-        raise BadLine(f"has no first (a number or null): {_shown(line)}")
+        raise _formless("first (a number or null)", hello, line)
     value = message["first"]
     return Reply(id, first=None if value is None else _number(value, hello, line))
+
+
+def _formless(missing: str, hello: Hello, line: bytes) -> BadLine:
+    """Return what is wrong with a line that lacks something, and what it has to be."""
+    right = f"the hello says {hello.answers}: reply {REPLIES[hello.answers]}"
+    return BadLine(f"has no {missing}: {_shown(line)}; {right}")
 
 
 @cache
@@ -325,7 +337,7 @@ def _pairs(message: dict[str, Any], hello: Hello, line: bytes, most: float) -> P
     """Return the pairs; of more than `most` only so many that this shows."""
     pairs = message.get("intervals")
     if not isinstance(pairs, list):
-        raise BadLine(f"has no intervals (a list of pairs): {_shown(line)}")
+        raise _formless("intervals (a list of pairs)", hello, line)
     plain = hello.numbers == "decimal" and hello.precision == "binary64"
     read = []
     for pair in pairs if len(pairs) <= most else pairs[: int(most) + 1]:

@@ -19,7 +19,6 @@ from typing import Any
 
 from raycert.cases.interrupts import interruptible
 from raycert.cases.protocol import VERSION, ask, encode
-from raycert.oracle import starters
 from raycert.oracle.client.apart import ours
 from raycert.oracle.client.dialogue import Question, fresh_ids
 from raycert.oracle.client.process import Failure
@@ -32,6 +31,7 @@ from raycert.oracle.measure.files import Effort, Report
 from raycert.oracle.measure.pictures import costs, numbers
 from raycert.oracle.measure.rays import ARRAYS, LEAVES, Many, arrays, rays_of
 from raycert.oracle.measure.way import missing, questions
+from raycert.oracle.starters import templates
 
 Data = dict[str, Any]
 Column = tuple[str, Callable[[Mapping[str, Any]], str]]
@@ -254,12 +254,14 @@ def _pipe(report: Report) -> Iterator[list[Data]]:
 
 def _compiled(folder: Path, notes: list[str]) -> dict[str, tuple[str, ...]]:
     """Return the starter in C, compiled; none, and a note, where there is no compiler."""
-    compiler, source = which("cc"), Path(next(iter(starters.__path__))) / "c"
+    compiler = which("cc")
     if compiler is None:
         notes.append("pipe: C: no compiler `cc` here")
         return {}
+    for name, data in templates("c"):
+        (folder / name).write_bytes(data)
     program = str(folder / "client")
-    sources = [str(path) for path in sorted(source.glob("*.c"))]
+    sources = [str(path) for path in sorted(folder.glob("*.c"))]
     flags = ("-std=c11", "-O2", "-ffp-contract=off", "-lm")
     subprocess.run([compiler, "-o", program, *sources, *flags], check=True)
     return {"C": (program,)}

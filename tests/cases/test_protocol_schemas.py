@@ -38,7 +38,7 @@ from raycert.cases.protocol import (
     write_hello,
 )
 from raycert.cases.strategies import solids
-from raycert.oracle.commands.harness import templates
+from raycert.oracle.starters import templates
 from raycert.reference import tracer
 from shared.corpus import golden
 

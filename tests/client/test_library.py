@@ -23,9 +23,11 @@ from raycert.oracle.client.target import load, target
 from raycert.oracle.client.worker import CODES, flat
 from raycert.oracle.commands import export
 from raycert.oracle.starters import __file__ as starters
+from raycert.oracle.starters import templates
 from shared.corpus import golden
 
-LIBRARY, C = (Path(starters).parent / name for name in ("library", "c"))
+LIBRARY = Path(starters).parent / "library"
+"""With the header, which is no template."""
 FLAGS = ["-std=c11", "-shared", "-fPIC", "-O2", "-ffp-contract=off", "-Wall", "-Wextra"]
 CAN = Cylinder((0, 0, 0), (0, 0, 1), 1)
 
@@ -34,7 +36,7 @@ def build(folder: Path, *sources: str, name: str = "tracer.so") -> str:
     """Build a library. Where there is no compiler, skip; on CI, fail."""
     if shutil.which("cc") is None:
         (pytest.fail if os.environ.get("CI") == "true" else pytest.skip)("cc is not installed")
-    command = ["cc", *FLAGS, f"-I{LIBRARY}", f"-I{C}", "-o", name, *sources, "-lm"]
+    command = ["cc", *FLAGS, f"-I{LIBRARY}", "-o", name, *sources, "-lm"]
     built = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     assert built.returncode == 0, built.stderr
     assert built.stderr == ""
@@ -108,9 +110,8 @@ def test_a_tree_is_flat() -> None:
 @pytest.fixture(scope="module")
 def starter(tmp_path_factory: pytest.TempPathFactory) -> str:
     folder = tmp_path_factory.mktemp("library")
-    for path in (*LIBRARY.iterdir(), C / "tracer.c", C / "tracer.h"):
-        if path.is_file():
-            shutil.copy(path, folder)
+    for name, data in templates("library"):
+        (folder / name).write_bytes(data)
     return build(folder, "library.c", "tracer.c")
 
 
@@ -134,11 +135,9 @@ def test_direct_calls_are_those_of_the_worker(starter: str) -> None:
 
 
 def test_the_readme_says_how_to_build_and_certify() -> None:
-    readme = (LIBRARY / "README.md").read_text()
+    readme = dict(templates("library"))["README.md"].decode()
     assert "\ncc -std=c11 -shared -fPIC -O2 -ffp-contract=off -o tracer.so library.c" in readme
     assert "\nraycert certify --level stable -- ./tracer.so\n" in readme
-    for path in LIBRARY.glob("*.[ch]"):
-        assert path.read_bytes().isascii()
 
 
 def test_the_header_is_good_in_c_plus_plus() -> None:

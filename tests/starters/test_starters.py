@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import json
 import os
+import runpy
 import shlex
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from functools import cache
 from importlib.resources import files
-from math import frexp, ldexp, sqrt
+from itertools import cycle, groupby
+from math import frexp, inf, ldexp, sqrt
 from pathlib import Path
 from typing import Any
 
@@ -20,8 +23,8 @@ from click.testing import CliRunner
 from raycert.cases.corpus import MANIFEST, encode_rows, manifest, write_whole
 from raycert.cases.degenerate import DEGENERACIES
 from raycert.cases.formats import BINARY64
-from raycert.cases.model import SOLIDS, Vector
-from raycert.cases.protocol import Hello, Pairs, Reply
+from raycert.cases.model import SOLIDS, Cylinder, Sphere, Vector
+from raycert.cases.protocol import FROM_INSIDE, Hello, Pairs, Reply
 from raycert.cases.row import GoldenRow
 from raycert.oracle.certify.grading import Grade, grade
 from raycert.oracle.certify.verdict import verdict
@@ -29,7 +32,8 @@ from raycert.oracle.client.dialogue import Outcome, Question
 from raycert.oracle.client.replay import run
 from raycert.oracle.client.target import target
 from raycert.oracle.commands.certify import certify
-from raycert.oracle.commands.harness import MARK, READERS, STARTERS, harness, templates
+from raycert.oracle.commands.harness import harness
+from raycert.oracle.starters import MARK, READERS, STARTERS, templates
 from raycert.reference import quadratic, tracer
 from shared.corpus import golden
 
@@ -37,9 +41,9 @@ each = pytest.mark.parametrize("lang", STARTERS)
 END = b"---- to here ----"
 
 
-def write(lang: str, folder: Path) -> str:
+def write(lang: str, folder: Path, *options: str) -> str:
     """Write a client as the command does, and return what the command says."""
-    result = CliRunner().invoke(harness, [lang, "--out", str(folder)])
+    result = CliRunner().invoke(harness, [lang, "--out", str(folder), *options])
     assert result.exit_code == 0, result.output
     return result.output
 
@@ -68,6 +72,106 @@ def build(lang: str, folder: Path) -> list[str]:
     if lang == "java":
         return [needs(program), "-cp", str(folder), *arguments]
     return [needs(program), *(str(folder / argument) for argument in arguments)]
+
+
+SIDES = dict(zip(STARTERS, cycle(FROM_INSIDE)))
+KIT = (
+    "table-through",
+    "perpendicular",
+    "tilt",
+    "rim",
+    "behind",
+    "zero-direction",
+    "tangent-start",
+    "sphere-rows",
+)
+"""Families that found what a pairing of crossings can do wrong."""
+
+
+def refused(command: list[str], hello: Hello, every: int) -> tuple[str, ...]:
+    """Return why a client is not `stable` on some rows: those that try the kit, and a part."""
+    asked = [
+        row
+        for i, row in enumerate(golden(hello.precision).rows)
+        if i % every == 0 or (row.family in KIT and isinstance(row.solid, Cylinder | Sphere))
+    ]
+    ran = run(target(command), [Question(row.id, row.solid, row.ray) for row in asked])
+    assert (ran.restarts, ran.notes) == (0, ())
+    assert replace(hello, name=ran.hello.name, version="1", numbers=ran.hello.numbers) == ran.hello
+    return verdict(
+        [grade(row, ran.outcomes[row.id], hello) for row in asked], "stable", "closed"
+    ).reasons
+
+
+ANSWERED = ("zero_direction", "zero_radius")
+
+
+@each
+def test_an_adapter_that_goes_through_the_kit_is_stable(lang: str, tmp_path: Path) -> None:
+    """Frame, shift, unit direction, far end, pairing for cylinders; unit, clip for spheres."""
+    write(lang, tmp_path, "--adapter")
+    assert refused(build(lang, tmp_path), Hello("", degenerate=ANSWERED), 19) == ()
+
+
+@each
+def test_a_first_hit_of_each_side_is_stable(lang: str, tmp_path: Path) -> None:
+    side = SIDES[lang]
+    options = ["--answers", "first", "--from-inside", side, "--precision", "binary32", "--adapter"]
+    write(lang, tmp_path, *options)
+    hello = Hello("", "", "first", precision="binary32", from_inside=side, degenerate=ANSWERED)
+    assert refused(build(lang, tmp_path), hello, 29) == ()
+
+
+@each
+def test_a_hit_or_none_is_stable(lang: str, tmp_path: Path) -> None:
+    write(lang, tmp_path, "--answers", "any")
+    hello = Hello("", answers="any", degenerate=ANSWERED)
+    assert refused(build(lang, tmp_path), hello, 59) == ()
+
+
+@each
+def test_a_list_of_floats_is_stable(lang: str, tmp_path: Path) -> None:
+    """Pairs that touch only once they are floats are one: csg-gap."""
+    write(lang, tmp_path, "--precision", "binary32")
+    hello = Hello("", precision="binary32", degenerate=ANSWERED)
+    assert refused(build(lang, tmp_path), hello, 19) == ()
+
+
+PLANTED = {
+    "frame: x is not turned back": ("s * a * b * k, -s * a)", "s * a * b * k, s * a)"),
+    "frame: z is not normalised": ("unit((q[0]", "(lambda v: (v, hypot(*v)))((q[0]"),
+    "shifted: by the whole height": ("f.height / 2)", "f.height)"),
+    "unit: |v| is left in": ("else v), length", "else v), 1.0"),
+    "rescaled: by |v| the wrong way": ("(a / length, b / length)", "(a * length, b * length)"),
+    "far_end: before the solid": ("ldexp(2.0,", "ldexp(0.125,"),
+    "paired: every gap is inside": ("for part in (0.375, 0.625)", "for part in ()"),
+    "paired: a crossing outside is a touch": ("a in ends and inside(a)", "a in ends"),
+    "paired: touches are lost": ("elif not before and a in ends and inside(a)", "elif False"),
+    "clipped: what lies behind is kept": ("if b >= 0]", "]"),
+    "clipped: a start inside is not cut": ("a if a > 0 else 0.0", "a"),
+}
+"""A fault in each piece of the kit: what it is, and what is put in place of what."""
+
+
+@pytest.mark.parametrize("fault", PLANTED)
+def test_a_fault_in_any_piece_of_the_kit_is_refused(fault: str, tmp_path: Path) -> None:
+    write("python", tmp_path, "--adapter")
+    kit, (sound, wrong) = tmp_path / "kit.py", PLANTED[fault]
+    assert kit.read_text().count(sound) == 1
+    kit.write_text(kit.read_text().replace(sound, wrong))
+    command = [sys.executable, str(tmp_path / "tracer.py")]
+    assert refused(command, Hello("", degenerate=ANSWERED), 59)
+
+
+def test_crossings_pair_where_a_library_rounds_the_other_way(tmp_path: Path) -> None:
+    """In the plane of a cap an entry may come late, and the points before it are inside."""
+    write("python", tmp_path)
+    paired = runpy.run_path(str(tmp_path / "kit.py"))["paired"]
+    assert paired([2.9, 3.0], 8.0, lambda s: 1 <= s <= 3) == [(2.9, 3.0)]
+    assert paired([4.0, 1.0, 2.0, 3.0], 8.0, lambda s: s <= 1 or s >= 3) == [(0, 1), (3, inf)]
+    assert paired([2.0, 2.0, -1.0], 8.0, lambda s: s == 2) == [(2, 2)]
+    assert paired([1.0, 3.0], 8.0, lambda s: s == 2) == []
+    assert paired([1.0, 1.0], 8.0, lambda s: s != 1) == [(0, inf)]
 
 
 @cache
@@ -135,7 +239,8 @@ def test_a_starter_is_stable_and_is_the_reference_to_the_bit(
 def test_the_printed_command_certifies(tmp_path: Path) -> None:
     """Against a corpus of every fortieth row, so that it is a certificate."""
     command = build("c", tmp_path) if write("c", tmp_path) else []
-    few = {"binary64/few.jsonl": encode_rows(golden().rows[::40], BINARY64)}
+    families = groupby(golden().rows[::40], lambda row: row.family)
+    few = {f"binary64/{name}.jsonl": encode_rows(list(rows), BINARY64) for name, rows in families}
     for name, data in (few | {MANIFEST: manifest(few)}).items():
         write_whole(tmp_path / "golden" / name, data)
     certificate = tmp_path / "certificate.json"
@@ -248,6 +353,12 @@ def test_an_unknown_language_gets_the_list(arguments: list[str]) -> None:
     result = CliRunner().invoke(harness, arguments)
     assert result.exit_code == 2
     assert ", ".join(STARTERS) in result.output
+
+
+def test_a_side_belongs_to_the_first_hit() -> None:
+    result = CliRunner().invoke(harness, ["c", "--from-inside", "exit"])
+    assert result.exit_code == 2
+    assert "--answers first" in result.output
 
 
 def test_the_list_is_the_folders() -> None:

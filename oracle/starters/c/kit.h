@@ -87,10 +87,12 @@ static inline int by_size(const void *first, const void *second)
 
 /* The intervals within [0, far] that crossings bound, in any order, doubled or not.
  *
- * Whether the ray is inside between two of them is asked of the point halfway, and before the first
- * and after the last of the start and the far end too. What is inside up to `far` is endless; a
- * crossing with nothing inside on either side is a touch. `inside` has to take what is within a
- * rounding of the boundary for inside, or a chord that grazes falls apart. */
+ * Crossings that bound nothing do no harm: those of all the planes and walls of a solid will do.
+ * Whether the ray is inside between two is asked of two points there, as one may be where it
+ * grazes; before the first and after the last of the start and the far end too. What is inside up
+ * to `far` is endless; a crossing that is inside, with nothing inside on either side, is a touch.
+ * `inside` has to take what is within a rounding of the boundary for inside, or a chord that
+ * grazes falls apart. */
 static inline Pairs paired(const double *crossings, size_t count, double far,
                            bool (*inside)(double s, const void *context), const void *context)
 {
@@ -108,13 +110,14 @@ static inline Pairs paired(const double *crossings, size_t count, double far,
         double a = knots[i], b = knots[i + 1];
         if (a == b)
             continue;
-        bool now = inside(a + (b - a) / 2, context) && (a > 0 || inside(a, context))
+        bool now = inside(a + 0.375 * (b - a), context)
+            && inside(a + 0.625 * (b - a), context) && (a > 0 || inside(a, context))
             && (b < far || inside(b, context));
         if (now && !before)
             found.at[found.count++] = (Pair){a, b};
         if (now)
             found.at[found.count - 1].leave = b < far ? b : INFINITY;
-        else if (!before && crossed)
+        else if (!before && crossed && inside(a, context))
             found.at[found.count++] = (Pair){a, a};
         before = now;
     }

@@ -78,10 +78,12 @@ inline End far_end(Vector start, Vector d, double size)
 
 // The intervals within [0, far] that crossings bound, in any order, doubled or not.
 //
-// Whether the ray is inside between two of them is asked of the point halfway, and before the first
-// and after the last of the start and the far end too. What is inside up to `far` is endless; a
-// crossing with nothing inside on either side is a touch. `inside(s)` has to take what is within a
-// rounding of the boundary for inside, or a chord that grazes falls apart.
+// Crossings that bound nothing do no harm: those of all the planes and walls of a solid will do.
+// Whether the ray is inside between two is asked of two points there, as one may be where it
+// grazes; before the first and after the last of the start and the far end too. What is inside up
+// to `far` is endless; a crossing that is inside, with nothing inside on either side, is a touch.
+// `inside` has to take what is within a rounding of the boundary for inside, or a chord that
+// grazes falls apart.
 template <class Inside>
 Pairs paired(const std::vector<double>& crossings, double far, Inside inside)
 {
@@ -97,12 +99,13 @@ Pairs paired(const std::vector<double>& crossings, double far, Inside inside)
         double a = knots[i], b = knots[i + 1];
         if (a == b)
             continue;
-        bool now = inside(a + (b - a) / 2) && (a > 0 || inside(a)) && (b < far || inside(b));
+        bool now = inside(a + 0.375 * (b - a)) && inside(a + 0.625 * (b - a))
+            && (a > 0 || inside(a)) && (b < far || inside(b));
         if (now && !before)
             found.push_back({a, b});
         if (now)
             found.back().leave = b < far ? b : std::numeric_limits<double>::infinity();
-        else if (!before && crossed)
+        else if (!before && crossed && inside(a))
             found.push_back({a, a});
         before = now;
     }

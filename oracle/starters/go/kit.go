@@ -72,10 +72,12 @@ func farEnd(start, d Vector, size float64) (Vector, float64) {
 
 // paired returns the intervals within [0, far] that crossings bound, in any order, doubled or not.
 //
-// Whether the ray is inside between two of them is asked of the point halfway, and before the first
-// and after the last of the start and the far end too. What is inside up to far is endless; a
-// crossing with nothing inside on either side is a touch. inside has to take what is within a
-// rounding of the boundary for inside, or a chord that grazes falls apart.
+// Crossings that bound nothing do no harm: those of all the planes and walls of a solid will do.
+// Whether the ray is inside between two is asked of two points there, as one may be where it
+// grazes; before the first and after the last of the start and the far end too. What is inside up
+// to far is endless; a crossing that is inside, with nothing inside on either side, is a touch.
+// inside has to take what is within a rounding of the boundary for inside, or a chord that grazes
+// falls apart.
 func paired(crossings []float64, far float64, inside func(s float64) bool) (found []Pair) {
 	knots := []float64{0, far}
 	for _, s := range crossings {
@@ -91,7 +93,8 @@ func paired(crossings []float64, far float64, inside func(s float64) bool) (foun
 		if a == b {
 			continue
 		}
-		now := inside(a+(b-a)/2) && (a > 0 || inside(a)) && (b < far || inside(b))
+		now := inside(a+0.375*(b-a)) && inside(a+0.625*(b-a)) &&
+			(a > 0 || inside(a)) && (b < far || inside(b))
 		if now && !before {
 			found = append(found, Pair{a, b})
 		}
@@ -100,7 +103,7 @@ func paired(crossings []float64, far float64, inside func(s float64) bool) (foun
 				b = math.Inf(1)
 			}
 			found[len(found)-1].Leave = b
-		} else if !before && (a > 0 || crossed) {
+		} else if !before && (a > 0 || crossed) && inside(a) {
 			found = append(found, Pair{a, a})
 		}
 		before = now

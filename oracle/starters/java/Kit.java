@@ -92,10 +92,12 @@ final class Kit {
     /**
      * The intervals within [0, far] that crossings bound, in any order, doubled or not.
      *
-     * <p>Whether the ray is inside between two of them is asked of the point halfway, and before
-     * the first and after the last of the start and the far end too. What is inside up to `far` is
-     * endless; a crossing with nothing inside on either side is a touch. `inside` has to take what
-     * is within a rounding of the boundary for inside, or a chord that grazes falls apart.
+     * <p>Crossings that bound nothing do no harm: those of all the planes and walls of a solid
+     * will do. Whether the ray is inside between two is asked of two points there, as one may be
+     * where it grazes; before the first and after the last of the start and the far end too. What
+     * is inside up to `far` is endless; a crossing that is inside, with nothing inside on either
+     * side, is a touch. `inside` has to take what is within a rounding of the boundary for inside,
+     * or a chord that grazes falls apart.
      */
     static List<Tracer.Pair> paired(double[] crossings, double far, DoublePredicate inside) {
         double[] ends = DoubleStream.of(crossings).filter(s -> 0 <= s && s < far).toArray();
@@ -110,13 +112,13 @@ final class Kit {
         List<Tracer.Pair> found = new ArrayList<>();
         for (int i = 0; i + 1 < knots.length; i++, crossed = true) {
             double a = knots[i], b = knots[i + 1], leave = b < far ? b : Double.POSITIVE_INFINITY;
-            boolean now = inside.test(a + (b - a) / 2)
+            boolean now = inside.test(a + 0.375 * (b - a)) && inside.test(a + 0.625 * (b - a))
                     && (a > 0 || inside.test(a)) && (b < far || inside.test(b));
             if (now && before) {
                 found.add(new Tracer.Pair(found.remove(found.size() - 1).enter(), leave));
             } else if (now) {
                 found.add(new Tracer.Pair(a, leave));
-            } else if (!before && crossed) {
+            } else if (!before && crossed && inside.test(a)) {
                 found.add(new Tracer.Pair(a, a));
             }
             before = now;

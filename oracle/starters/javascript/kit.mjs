@@ -47,10 +47,12 @@ export function farEnd(start, d, size) {
 
 // The intervals within [0, far] that crossings bound, in any order, doubled or not.
 //
-// Whether the ray is inside between two of them is asked of the point halfway, and before the first
-// and after the last of the start and the far end too. What is inside up to `far` is endless; a
-// crossing with nothing inside on either side is a touch. `inside(s)` has to take what is within a
-// rounding of the boundary for inside, or a chord that grazes falls apart.
+// <p>Crossings that bound nothing do no harm: those of all the planes and walls of a solid will
+// do. Whether the ray is inside between two is asked of two points there, as one may be where it
+// grazes; before the first and after the last of the start and the far end too. What is inside up
+// to `far` is endless; a crossing that is inside, with nothing inside on either side, is a touch.
+// `inside` has to take what is within a rounding of the boundary for inside, or a chord that
+// grazes falls apart.
 export function paired(crossings, far, inside) {
   const ends = new Set(crossings.filter((s) => 0 <= s && s < far));
   const knots = [...new Set([0, ...ends, far])].sort((a, b) => a - b);
@@ -58,10 +60,11 @@ export function paired(crossings, far, inside) {
   let before = false;
   for (let i = 0; i + 1 < knots.length; i++) {
     const a = knots[i], b = knots[i + 1];
-    const now = inside(a + (b - a) / 2) && (a > 0 || inside(a)) && (b < far || inside(b));
+    const now = inside(a + 0.375 * (b - a)) && inside(a + 0.625 * (b - a))
+      && (a > 0 || inside(a)) && (b < far || inside(b));
     if (now && !before) found.push([a, b]);
     if (now) found.at(-1)[1] = b < far ? b : Infinity;
-    else if (!before && ends.has(a)) found.push([a, a]);
+    else if (!before && ends.has(a) && inside(a)) found.push([a, a]);
     before = now;
   }
   return found;

@@ -15,6 +15,7 @@ Nothing here has a tolerance, and what it rounds is as little as a few roundings
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from itertools import pairwise
 from math import frexp, hypot, inf, ldexp
 from typing import NamedTuple
 
@@ -76,22 +77,25 @@ def far_end(start: Vector, d: Vector, size: float) -> tuple[Vector, float]:
 def paired(crossings: Iterable[float], far: float, inside: Callable[[float], bool]) -> list[Pair]:
     """Return the intervals within [0, far] that crossings bound, in any order, doubled or not.
 
-    Whether the ray is inside between two of them is asked of the point halfway, and before the
-    first and after the last of the start and the far end too. What is inside up to `far` is
-    endless; a crossing with nothing inside on either side is a touch. `inside` has to take what is
-    within a rounding of the boundary for inside, or a chord that grazes falls apart.
+    Crossings that bound nothing do no harm: those of all the planes and walls of a solid will do.
+    Whether the ray is inside between two is asked of two points there, as one may be where it
+    grazes; before the first and after the last of the start and the far end too. What is inside up
+    to `far` is endless; a crossing that is inside, with nothing inside on either side, is a touch.
+    `inside` has to take what is within a rounding of the boundary for inside, or a chord that
+    grazes falls apart.
     """
     ends = sorted({c + 0.0 for c in crossings if 0 <= c < far})
     knots = sorted({0.0, *ends, far})
     found: list[Pair] = []
     before = False
-    for a, b in zip(knots, knots[1:], strict=False):
-        now = inside(a + (b - a) / 2) and (a > 0 or inside(a)) and (b < far or inside(b))
+    for a, b in pairwise(knots):
+        now = all(inside(a + part * (b - a)) for part in (0.375, 0.625))
+        now = now and (a > 0 or inside(a)) and (b < far or inside(b))
         if now and before:
             a, _ = found.pop()
         if now:
             found.append((a, b if b < far else inf))
-        elif not before and a in ends:
+        elif not before and a in ends and inside(a):
             found.append((a, a))
         before = now
     return found

@@ -87,10 +87,12 @@ pub fn far_end(start: Vector, d: Vector, size: f64) -> (Vector, f64) {
 
 /// The intervals within [0, far] that crossings bound, in any order, doubled or not.
 ///
-/// Whether the ray is inside between two of them is asked of the point halfway, and before the
-/// first and after the last of the start and the far end too. What is inside up to `far` is endless; a
-/// crossing with nothing inside on either side is a touch. `inside` has to take what is within a
-/// rounding of the boundary for inside, or a chord that grazes falls apart.
+/// Crossings that bound nothing do no harm: those of all the planes and walls of a solid will do.
+/// Whether the ray is inside between two is asked of two points there, as one may be where it
+/// grazes; before the first and after the last of the start and the far end too. What is inside up
+/// to `far` is endless; a crossing that is inside, with nothing inside on either side, is a touch.
+/// `inside` has to take what is within a rounding of the boundary for inside, or a chord that
+/// grazes falls apart.
 pub fn paired(crossings: &[f64], far: f64, inside: impl Fn(f64) -> bool) -> Vec<Pair> {
     let mut knots = vec![0.0, far];
     knots.extend(crossings.iter().filter(|&&s| 0.0 <= s && s < far));
@@ -99,12 +101,15 @@ pub fn paired(crossings: &[f64], far: f64, inside: impl Fn(f64) -> bool) -> Vec<
     knots.dedup();
     let (mut found, mut before) = (Vec::<Pair>::new(), false);
     for (&a, &b) in knots.iter().zip(&knots[1..]) {
-        let now = inside(a + (b - a) / 2.0) && (a > 0.0 || inside(a)) && (b < far || inside(b));
+        let now = inside(a + 0.375 * (b - a))
+            && inside(a + 0.625 * (b - a))
+            && (a > 0.0 || inside(a))
+            && (b < far || inside(b));
         let leave = if b < far { b } else { f64::INFINITY };
         match found.last_mut() {
             Some(last) if now && before => last.1 = leave,
             _ if now => found.push((a, leave)),
-            _ if !before && crossed => found.push((a, a)),
+            _ if !before && crossed && inside(a) => found.push((a, a)),
             _ => (),
         }
         before = now;
