@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from raycert.cases.interrupts import held
-from raycert.oracle.commands.keeping import Place, check_distinct, check_written, place
+from raycert.oracle.commands.keeping import Keep, check_distinct, check_written, place
 from raycert.oracle.commands.options import (
     FILE,
     FILE_OR_DASH,
@@ -162,7 +162,7 @@ def certify(target: tuple[str, ...], **options: Any) -> None:
     raise SystemExit(0 if verdict(form).good else 1)
 
 
-def _place(plan: Plan, words: tuple[str, ...], options: dict[str, Any]) -> Place | None:
+def _place(plan: Plan, words: tuple[str, ...], options: dict[str, Any]) -> Keep | None:
     """Return where the certificate goes; refuse what would be lost by an output."""
     found = place(plan, words, options)
     named = {f"--{form}": options[form] for form in REPORTS}

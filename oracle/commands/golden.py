@@ -12,7 +12,7 @@ from raycert.cases.families.catalog import FAMILIES
 from raycert.oracle.commands.options import (
     FOLDER,
     KNOWN_FOLDER,
-    Group,
+    Menu,
     counting,
     statuses,
     writing,
@@ -38,7 +38,7 @@ corpus_option = click.option(
 )
 
 
-@click.group(cls=Group)
+@click.group(cls=Menu)
 def golden() -> None:
     """Regenerate or check the golden files: every row, computed anew from its family."""
 

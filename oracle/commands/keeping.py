@@ -27,7 +27,7 @@ USUAL = Path("certificate.json")
 FORCE = "--out FILE writes elsewhere, --force overwrites it"
 
 
-class Run(NamedTuple):
+class Errand(NamedTuple):
     """What makes two runs the same: what was asked, of which golden files."""
 
     line: str
@@ -35,7 +35,7 @@ class Run(NamedTuple):
     manifest: str
 
     @classmethod
-    def of(cls, plan: Plan, command: tuple[str, ...], options: Mapping[str, Any]) -> Run:
+    def of(cls, plan: Plan, command: tuple[str, ...], options: Mapping[str, Any]) -> Errand:
         from raycert.cases.corpus import digest, read_manifest
 
         line, golden = plan.request(command).whole(), plan.golden
@@ -43,7 +43,7 @@ class Run(NamedTuple):
         return cls(line + words, read_manifest(golden)["corpus"], digest(golden))
 
     @classmethod
-    def read(cls, form: Any) -> Run:
+    def read(cls, form: Any) -> Errand:
         """Return the run of a certificate. Raises `LookupError` or `TypeError` where it is none."""
         known, corpus = form["expectations"], form["corpus"]
         words = _also(known and known["file"], form["standing"])
@@ -57,11 +57,11 @@ def _also(expect: object, standing: Mapping[str, Any]) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class Keep:
     """The file for the certificate of a run. `force` overwrites whatever is there."""
 
     out: Path
-    run: Run
+    run: Errand
     force: bool
 
     def obstacle(self, interrupted: bool = False) -> str | None:
@@ -73,7 +73,7 @@ class Place:
             return None
         try:
             form = json.loads(self.out.read_bytes())
-            there, whole = Run.read(form), not form["run"]["interrupted"]
+            there, whole = Errand.read(form), not form["run"]["interrupted"]
         except (LookupError, TypeError, ValueError, RecursionError):
             return f"is no certificate, and stays as it is; {FORCE}"
         if there.line != self.run.line:
@@ -95,13 +95,13 @@ class Place:
         return write_out(self.out, json.dumps(form, indent=1, allow_nan=False) + "\n")
 
 
-def place(plan: Plan, command: tuple[str, ...], options: Mapping[str, Any]) -> Place | None:
+def place(plan: Plan, command: tuple[str, ...], options: Mapping[str, Any]) -> Keep | None:
     """Return where the certificate goes, if anywhere. Refuses what would be lost by it: exit 2."""
     out = options["out"]
     if out is None and plan.selection.options():
         return None
     out = out or FILE.convert(USUAL, None, None)
-    found = Place(out, Run.of(plan, command, options), options["force"])
+    found = Keep(out, Errand.of(plan, command, options), options["force"])
     if lost := found.obstacle():
         raise BadInput(f"{out} {lost}")
     return found

@@ -10,7 +10,7 @@ import click
 from raycert.cases import interrupts
 from raycert.cases.files import BadFile
 from raycert.oracle.commands import streams
-from raycert.oracle.commands.options import FULL, LOST, NOT_WRITTEN, BadInput, Group, flush
+from raycert.oracle.commands.options import FULL, LOST, NOT_WRITTEN, BadInput, Menu, flush
 from raycert.oracle.reports.foreign import escaped, say
 
 VERBS: dict[str, dict[str, tuple[str, str]]] = {
@@ -77,7 +77,7 @@ where there is nothing to keep, the status is 128 and the signal's number.
 """
 
 
-class Verbs(Group):
+class Verbs(Menu):
     """A group whose commands are imported when they are needed."""
 
     def main(self, *args: Any, **kwargs: Any) -> Any:

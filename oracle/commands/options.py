@@ -90,7 +90,7 @@ class OneOf(click.Choice[str]):
         return f"{text.rstrip('.')}; {hint}" if hint else text
 
 
-class Group(click.Group):
+class Menu(click.Group):
     """A group that says of an unknown command which was meant."""
 
     def resolve_command(
