@@ -163,7 +163,7 @@ def _names(words: Sequence[str]) -> list[tuple[str, str]]:
     parts = [re.split("[:/]", word.strip().rstrip("/")) for word in words]
     tails = [clean(part[-1], LABEL) for part in parts]
     paths = [part[-2] if len(part) > 1 else part[0] for part in parts]
-    owners = [path.rpartition(".")[2] for path in paths]
+    owners = [path.rpartition(".")[2] or path for path in paths]
     wholes = [":".join(dict.fromkeys(pair)) for pair in zip(owners, tails, strict=True)]
     for names in (tails, wholes):
         if len({clean(name, NAME) for name in names}) == len(names):
