@@ -69,9 +69,10 @@ It is exact if it is expected, and faithful if it has as many pairs and each end
 that of down or that of up. What a tracer declares to drop is left out of these three,
 where there is a word of touches for each pair of expected.
 
-A level counts the rows that are decisive for it, and none of the range tier. A row
-that is not well-formed, or not answered, fails every level; a row that fails a level
-that it decides fails the stronger ones that it decides.
+A level counts the rows that are decisive for it, none of the range tier, and none with
+a zero direction or a radius of 0, unless a tracer is for those. A row that is not
+well-formed, or not answered, fails every level; a row that fails a level that it
+decides fails the stronger ones that it decides.
 """
 
 

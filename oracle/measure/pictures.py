@@ -47,15 +47,14 @@ def picture(scene: Scene, show: str, off: frozenset[str]) -> Any:
 
 def worth(scene: Scene, show: str, repeats: int = 3) -> tuple[list[Worth], tuple[float, float]]:
     """Return what each item is worth in a scene, and the seconds with all of them and with none."""
-
-    def least(off: frozenset[str]) -> tuple[float, float]:
-        on = partial(picture, scene, show, NOTHING)
-        race = Race({"with": on, "without": partial(picture, scene, show, off)}).run(repeats)
-        return race.least("with"), race.least("without")
-
     items = reference("plan", "plan")(scene, show).items
-    rows = [Worth(one, *(least(frozenset({one.name})) if one.applies else ())) for one in items]
-    return rows, least(everything())
+    off = {one.name: frozenset({one.name}) for one in items if one.applies}
+    off |= {"planned": NOTHING, "plain": everything()}
+    race = Race({name: partial(picture, scene, show, some) for name, some in off.items()})
+    least = {name: race.least(name) for name in race.run(repeats).ways}
+    planned = least["planned"]
+    rows = [Worth(one, *((planned, least[one.name]) if one.applies else ())) for one in items]
+    return rows, (planned, least["plain"])
 
 
 def numbers(most: int) -> list[int]:

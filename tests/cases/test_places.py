@@ -20,6 +20,7 @@ ROOT = Path(__file__).parents[2]
 KINDS = frozenset(kind.__name__ for kind in LEAVES)
 
 PLACES = {
+    "cases.domain": "its sizes, against which a domain is measured",
     "cases.lattice": "when it lies on the lattice, and a ray in its face",
     "cases.recipes": "what a ray may aim at",
     "oracle.exact.trace": "its exact list, row by row",

@@ -151,21 +151,18 @@ def axioms(name: str, table: tuple[Row, ...]) -> And:
     return And(*facts)
 
 
-def faults(table: tuple[Row, ...], facts: And) -> list[str]:
-    """Return every overlap of two rows, and whether anything is left out."""
-    found = [
-        f"{one.name} and {two.name}"
-        for one, two in combinations(table, 2)
-        if satisfiable(And(facts, holds(one), holds(two)))
-    ]
+def faults(table: tuple[Row, ...], facts: And) -> Iterator[str]:
+    """Yield every overlap of two rows, and whether anything is left out."""
+    for one, two in combinations(table, 2):
+        if satisfiable(And(facts, holds(one), holds(two))):
+            yield f"{one.name} and {two.name}"
     if satisfiable(And(facts, Not(Or(*(holds(row) for row in table))))):
-        found.append("a gap")
-    return found
+        yield "a gap"
 
 
 @pytest.mark.parametrize("name", TABLES)
 def test_rows_exclude_one_another_and_leave_nothing_out(name: str) -> None:
-    assert faults(TABLES[name], axioms(name, TABLES[name])) == []
+    assert list(faults(TABLES[name], axioms(name, TABLES[name]))) == []
 
 
 @pytest.mark.parametrize("name", TABLES)
@@ -176,7 +173,7 @@ def test_every_row_can_occur(name: str) -> None:
 
 def test_without_up_below_uq_the_rows_of_problem_2_overlap() -> None:
     """The proof uses the axiom, so it is not vacuous."""
-    assert faults(PROBLEM_2, axioms("no axioms", PROBLEM_2)) == [
+    assert list(faults(PROBLEM_2, axioms("no axioms", PROBLEM_2))) == [
         "AH and DE",
         "AH and CF",
         "BG and DE",
@@ -200,7 +197,7 @@ def test_any_other_relation_in_any_row_is_noticed(name: str) -> None:
     noticed = 0
     for row, mutant, table in mutants(TABLES[name]):
         means_another = satisfiable(And(facts, Xor(holds(row), holds(mutant))))
-        assert bool(faults(table, facts)) == bool(means_another), mutant.condition
+        assert any(faults(table, facts)) == bool(means_another), mutant.condition
         noticed += bool(means_another)
     assert noticed > 4 * len(TABLES[name])
 

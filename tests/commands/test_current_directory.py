@@ -6,6 +6,7 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Iterator, Mapping
+from functools import cache
 from importlib.metadata import packages_distributions
 from pathlib import Path
 
@@ -100,6 +101,7 @@ def test_a_verb_takes_nothing_from_the_current_directory(
     run(here, programs / "raycert", verb, *WORK.get(verb, ("--help",)))
 
 
+@cache
 def before_us() -> set[str]:
     """Return what Python itself imports before a line of `raycert` runs that could prevent it."""
     code = "import runpy, sys, raycert.oracle.client; print(*sys.modules)"

@@ -143,7 +143,7 @@ def test_only_what_is_left_is_asked(tester: pytest.Pytester) -> None:
 
 
 def test_workers_ask_for_their_own_families(tester: pytest.Pytester) -> None:
-    run(tester, GOOD, "-p", "xdist", "-n", "2", alone=False).assert_outcomes(passed=3)
+    run(tester, GOOD, "-p", "xdist", "-n", "2").assert_outcomes(passed=3)
 
 
 def known(tester: pytest.Pytester, *entries: str) -> tuple[str, str]:

@@ -18,7 +18,7 @@ typedef struct { int n; double of[MOST][2]; } Pairs;
 static struct {
     char id[100], tier[10];
     int type, touches, touch[MOST], most[2][MOST];
-    bool decides[LEVELS], touched[KINDS + 1];
+    bool degenerate, decides[LEVELS], touched[KINDS + 1];
     Pairs expected, down, up, inner[2], outer[2];
 } row;
 typedef struct { int rows, passed[LEVELS], failed[LEVELS], kept[KINDS], touched[KINDS]; } Tally;
@@ -72,6 +72,27 @@ static int word(FILE *file, const char *const *words, int n)
     return 0;
 }
 
+/* Whether a solid has a radius of 0. */
+static bool has_no_radius(FILE *file, int type)
+{
+    static const int numbers[] = {6, 4, 7, 6, 7};
+    bool none = false;
+    double last = 1;
+    if (type >= (int)(sizeof numbers / sizeof *numbers)) {
+        for (int n = length(file); n > 0; n--) none |= has_no_radius(file, word(file, TYPE, TYPES));
+        return none;
+    }
+    for (int n = numbers[type]; n > 0; n--) last = number(file);
+    return numbers[type] != 6 && last == 0;
+}
+
+static bool has_no_direction(FILE *file)
+{
+    bool none = true;
+    for (int i = 0; i < 6; i++) none &= number(file) == 0 || i < 3;
+    return none;
+}
+
 static bool read_row(FILE *file)
 {
     memset(row.decides, 0, sizeof row.decides);
@@ -79,7 +100,8 @@ static bool read_row(FILE *file)
     while (fscanf(file, " %1[#]%*[^\n]", row.id) == 1) {}           /* comments */
     if (fscanf(file, "%99s %9s", row.id, row.tier) != 2) return false;
     row.type = word(file, TYPE, TYPES);
-    if (fscanf(file, " %*[^\t\n] %*[^\t\n]") == EOF) die(row.id, "ends early");     /* solid, ray */
+    row.degenerate = has_no_radius(file, row.type);
+    row.degenerate |= has_no_direction(file);
     pairs(file, &row.expected);
     pairs(file, &row.down);
     pairs(file, &row.up);
@@ -169,6 +191,7 @@ static void grade(Tracer *tracer)
     bool fails = bad;
     Tally *tally = &tracer->tally[row.type];
     tally->rows++;
+    if (row.degenerate) return;
     for (int i = SOUND; i < LEVELS && strcmp(row.tier, "range"); i++) {
         if (!bad && !row.decides[i]) continue;
         if (!fails)

@@ -43,6 +43,10 @@ function pairs(list, hello = { numbers: 'hex' }) {
   return list.map((pair) => pair.map((value) => number(value, hello)));
 }
 
+/** Whether a solid has a radius of 0. */
+const hasNoRadius = (solid) => (solid.of ? solid.of.some(hasNoRadius)
+  : solid.radius !== undefined && fromHex(solid.radius) === 0);
+
 const lines = (path) => readFileSync(path, 'latin1').split('\n').filter((line) => line);
 
 /** What the verdict takes of a golden row. Its exact ends merge where they touch after rounding. */
@@ -63,6 +67,7 @@ function readRow(line) {
   }
   return {
     id: row.id, tier: row.tier, solid: row.solid, decisive: row.decisive, accept,
+    degenerate: hasNoRadius(row.solid) || row.ray.direction.every((x) => fromHex(x) === 0),
     touches: row.intervals.map((interval) => interval.touch),
     expected: pairs(row.expected), down: rounded('down'), up: rounded('up'),
   };
@@ -126,6 +131,7 @@ function passes(row, answer, convention) {
 
 function grade(row, answer, convention, tally) {
   tally.rows++;
+  if (row.degenerate) return;
   const bad = !answer || !wellFormed(row, answer);
   const passed = bad ? {} : passes(row, answer, convention);
   let fails = bad;
@@ -152,8 +158,11 @@ const asked = (solid, types) =>
  */
 function judge(rows, path) {
   const { hello, answers } = readAnswers(path);
-  if (hello.tolerance || (hello.answers ?? 'intervals') !== 'intervals') {
-    throw new Error(`${path}: only lists of intervals with no tolerance are judged here`);
+  const more = [hello.domain, hello.degenerate].some((one) => Object.keys(one ?? {}).length)
+    || /\bany\b/.test(hello.convention);
+  if (hello.tolerance || more || (hello.answers ?? 'intervals') !== 'intervals') {
+    throw new Error(`${path}: only lists of intervals with no tolerance, domain, degenerate inputs`
+      + ' or touches left open are judged here');
   }
   let granted = true;
   let tested = false;
