@@ -29,8 +29,8 @@ MOST, LEAST = 32, 2
 """Rows that are asked again: at most, and whatever the time."""
 PART = 1 / 3
 """Of the time of the run until then, the part that asking again may take."""
-LONGEST = 10.0
-"""Seconds that it may take where a row has passed."""
+LONG, LONGEST = 5.0, 10.0
+"""Seconds that it may take at most, and where a row has passed."""
 REPEATED = ("crash", "hang", "wrong-id", "unrepeatable")
 """Failures of a process, each of which was asked again when it came."""
 
@@ -126,7 +126,7 @@ def ask_again(
     began = time.monotonic()
     for g in sample(grades, level):
         spent = time.monotonic() - began
-        if len(asked) >= LEAST and spent > (LONGEST if passed else seconds):
+        if len(asked) >= LEAST and spent > (LONGEST if passed else min(seconds, LONG)):
             break
         then = grade(g.row, alone(Question(g.row.id, g.row.solid, g.row.ray)), hello)
         asked.append(g.row.id)

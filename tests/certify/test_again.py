@@ -38,6 +38,7 @@ def right(question: Question) -> Outcome:
 def leaky(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> Sequence[str]:
     monkeypatch.chdir(CLIENTS)
     monkeypatch.setattr("raycert.oracle.certify.again.MOST", 8)
+    monkeypatch.setattr("raycert.oracle.certify.again.LONGEST", 100.0)
     return ("leaky:intersect",) if request.param == "function" else (sys.executable, "leaky.py")
 
 
