@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import unicodedata
 from html import escape
-from re import findall, sub
+from re import findall, match, sub
 from typing import Any
 
 import click
@@ -53,9 +53,17 @@ def line(text: str) -> str:
 
 
 def clean(text: str, most: int = LONG) -> str:
-    """Return one line of at most `most` characters that any terminal, XML or page can hold."""
+    """Return one line of at most `most` characters that any terminal, XML or page can hold.
+
+    A number is cut off whole: of 2.46e+17 no 2.46 is left.
+    """
     kept = line(text[: 4 * most])
-    return kept if len(text) <= 4 * most and len(kept) <= most else kept[: most - 1] + ELLIPSIS
+    if len(text) <= 4 * most and len(kept) <= most:
+        return kept
+    short = kept[: most - 1]
+    if match("[0-9a-fpx.+-]", kept[most - 1 :] or text[4 * most :]):
+        short = sub(r"(?<![\w.+-])[-+]?[0-9.][\w.+-]{0,39}$", "", short)
+    return short + ELLIPSIS
 
 
 def plain(text: str) -> str:

@@ -21,7 +21,7 @@ from raycert.oracle.reports.reading import Json, count, number
 
 SCREEN = 58
 """Lines of a report, as long as there are no more types of solids and commands than usual."""
-REASONS, CAUSES, NOTES, EASY = 5, 4, 4, 2
+REASONS, CAUSES, NOTES = 5, 3, 3
 """How many of each are shown; the certificate has them all."""
 STYLES = {
     "granted": "bold green",
@@ -135,7 +135,7 @@ def _below(certificate: Json, name: str) -> list[str]:
     level, solid = certificate["asked"]["level"], certificate["solids"][name]
     tally = solid["levels"][level]
     refused = tally["refused"]
-    lines = [f"{refused} of {tally['failed']} are refusals ({level})"] if refused else []
+    lines = [f"{refused} of the {tally['failed']} are refused ({level})"] if refused else []
     return lines + findings.measured(certificate, name)
 
 
@@ -196,8 +196,8 @@ def _failures(certificate: Json, width: int, room: int) -> Iterator[Text]:
         lines = _failure(certificate, kind, width)
         tall, left = sum(_height(line, width) for line in lines), len(found) - i - 1
         if i and tall + left > room:
-            lines = [Text(f"  {_named(kind)}, such as {kind.first['id']}")]
-            tall = 1
+            lines = [Text(f"  {_named(kind)}: ").append(kind.first["explain"], "bold")]
+            tall = _height(lines[0], width)
         yield from lines
         room -= tall
     yield again
@@ -210,13 +210,14 @@ def _named(kind: KindOfFailure) -> str:
 def _failure(certificate: Json, kind: KindOfFailure, width: int) -> list[Text]:
     failed = kind.first
     why, fault, *_ = reading.facts(certificate, failed)
+    quiet = failed["answer"] is None and failed["reply"] is None
     title = _wrapped(f"{_named(kind)}: {why}", width, 2)
     title[0].stylize("bold red", 0, len(_named(kind)) + 3)
     expected = inputs.intervals(failed["expected"])
     return [
         *title,
         *_case(failed, inputs.said(failed), expected, width),
-        *_wrapped(fault, width, 4),
+        *(_wrapped(fault, width, 4) if quiet else []),
         Text(f"    {failed['explain']}", "bold"),
     ]
 

@@ -194,3 +194,15 @@ def test_what_is_shown_is_safe_whatever_it_was(text: str) -> None:
     assert not re.search(r"(?<!\\)(?:\\\\)*[`|*\[]", plain(text)) or "<" in plain(text)
     assert "<" not in plain(text)
     assert without_code(code(text)) == ""
+
+
+@pytest.mark.parametrize("most", range(8, 40))
+def test_a_number_is_never_cut_in_the_middle(most: int) -> None:
+    """What is left of a text has whole numbers, and other words as far as they go."""
+    text = "leave 1.25, not 2.4691357802469134e+17 or -0x1.8p-12 or 7"
+    shown = clean(text, most)
+    assert len(shown) <= most
+    assert set(re.findall(r"-?[0-9][^ ,\u2026]*", shown)) <= {"1.25", "2.4691357802469134e+17"} | {
+        "-0x1.8p-12"
+    }
+    assert clean("x1" * 40, 11) == "x1" * 5 + "\u2026"

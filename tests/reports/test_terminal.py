@@ -28,7 +28,7 @@ def test_markup_in_what_a_client_said_is_printed_and_not_obeyed() -> None:
     form = copy.deepcopy(made_up.bad())
     for failed in form["failures"]:
         failed["faults"] = dict.fromkeys(failed["faults"], "error: [/x] [bold]b[/bold] :smile:")
-        failed["why"] = "[red]why[/]"
+        failed["why"], failed["answer"] = "[red]why[/]", None
     form["run"]["notes"] = ["[link=file:///]note[/link]"]
     text = printed(form, colour=True)
     for words in ("[/x] [bold]b[/bold] :smile:", "[red]why[/]", "[link=file:///]note[/link]"):
