@@ -11,7 +11,17 @@ from raycert.cases.formats import FORMATS
 from raycert.cases.protocol import ANSWERS, FROM_INSIDE, Answers, FromInside
 from raycert.oracle.commands.options import FOLDER, write_out
 from raycert.oracle.reports.foreign import say
-from raycert.oracle.starters import MARK, READERS, README, STARTERS, Starter, Wanted, templates
+from raycert.oracle.starters import (
+    FUNCTION,
+    IN_PROCESS,
+    MARK,
+    READERS,
+    README,
+    STARTERS,
+    Starter,
+    Wanted,
+    templates,
+)
 
 EPILOG = """\b
 Each client is complete, and granted `stable` as it is: a port of the reference tracer
@@ -27,6 +37,7 @@ answers of a tracer by the golden rows alone, without raycert.
 Examples:
   raycert harness c --out my_tracer
   raycert harness rust --answers first --from-inside exit --precision binary32
+  raycert harness python --in-process
   raycert harness readers
   raycert harness --list
 """
@@ -59,6 +70,7 @@ Examples:
     help="The numbers that it is asked and answers in.",
 )
 @click.option("--adapter", is_flag=True, help="Begin with an adapter to a library, and its kit.")
+@click.option("--in-process", is_flag=True, help="For python: a function to be called, no pipe.")
 @click.option("--force", is_flag=True, help="Overwrite files that are there.")
 @click.option("--list", "listing", is_flag=True, help="List the languages, and stop.")
 def harness(
@@ -68,6 +80,7 @@ def harness(
     from_inside: FromInside | None,
     precision: str,
     adapter: bool,
+    in_process: bool,
     force: bool,
     listing: bool,
 ) -> None:
@@ -82,15 +95,18 @@ def harness(
         raise click.UsageError(f"{wrong}; there are: {', '.join((*STARTERS, READERS))}")
     if from_inside and answers != "first":
         raise click.UsageError("--from-inside is of the first hit: add --answers first")
+    wanted = Wanted(answers, from_inside or "zero", precision, adapter)
+    if in_process and (lang != "python" or wanted != Wanted()):
+        raise click.UsageError("--in-process is of python, and declares the rest in its `hello`")
     folder = out or Path(READERS if lang == READERS else f"tracer-{lang}")
-    files = dict(templates(lang, Wanted(answers, from_inside or "zero", precision, adapter)))
+    files = dict(templates(FUNCTION if in_process else lang, wanted))
     written = _write(folder, files, force)
     if len(written) < len(files):
         say(f"Wrote {len(written)} of {len(files)} files to {folder}.")
     elif lang == READERS:
         say(f"Wrote {len(files)} files to {folder}. Its README.md says how to use them.")
     else:
-        _advise(STARTERS[lang], folder, files)
+        _advise(IN_PROCESS if in_process else STARTERS[lang], folder, files)
 
 
 def _write(folder: Path, files: dict[str, bytes], force: bool) -> list[str]:
@@ -108,4 +124,5 @@ def _advise(starter: Starter, folder: Path, files: dict[str, bytes]) -> None:
     say(f"Wrote {len(files)} files to {folder}. Your tracer goes into {place}, at the mark.")
     say("Next:")
     say(f"  {enter} && {starter.build}" if starter.build else f"  {enter}")
-    say(f"  raycert certify --level stable -- {starter.run}")
+    dashes = "" if starter is IN_PROCESS else "-- "
+    say(f"  raycert certify --level stable {dashes}{starter.run}")

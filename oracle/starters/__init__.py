@@ -4,8 +4,9 @@ Each holds the whole line protocol, one marked place, `replace from here` to `to
 user's own tracer, and a kit of what adapters to libraries need. Until then a port of the reference
 tracer stands there, behind the kit if that is wanted, so that it is granted `stable` as it is.
 `library` is a shared library instead of a program, and binds the tracer of `c`; `readers` holds two
-programs that judge answers without raycert, and is no client. A file `NAME.jinja` is a template of
-`NAME`, and the options are its values; all others are written as they are.
+programs that judge answers without raycert, and is no client; `function` holds a function of
+Python, which raycert calls in a process of its own. A file `NAME.jinja` is a template of `NAME`,
+and the options are its values; all others are written as they are.
 """
 
 from __future__ import annotations
@@ -54,6 +55,9 @@ STARTERS = {
         "./tracer.so",
     ),
 }
+FUNCTION = "function"
+"""No client, but a function that is called: Python `--in-process`."""
+IN_PROCESS = Starter("Python function", "", "tracer.py:intersect")
 SHARED = {"library": ("c", ("tracer.c.jinja", "tracer.h.jinja", "kit.h"))}
 """Files that a language takes from another."""
 

@@ -33,7 +33,7 @@ from raycert.oracle.client.replay import run
 from raycert.oracle.client.target import target
 from raycert.oracle.commands.certify import certify
 from raycert.oracle.commands.harness import harness
-from raycert.oracle.starters import MARK, READERS, STARTERS, templates
+from raycert.oracle.starters import FUNCTION, MARK, READERS, STARTERS, templates
 from raycert.reference import quadratic, tracer
 from shared.corpus import golden
 
@@ -361,12 +361,26 @@ def test_a_side_belongs_to_the_first_hit() -> None:
     assert "--answers first" in result.output
 
 
+def test_a_function_in_process_is_granted_as_it_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    said = write("python", tmp_path / "mine", "--in-process")
+    command = said.splitlines()[-1].removeprefix("  raycert certify ")
+    assert command == "--level stable tracer.py:intersect"
+    monkeypatch.chdir(tmp_path / "mine")
+    result = CliRunner().invoke(certify, shlex.split(command))
+    assert result.exit_code == 0, result.output
+    for lang, *options in (("c",), ("python", "--answers", "first"), ("readers",)):
+        refused = CliRunner().invoke(harness, [lang, "--in-process", *options])
+        assert refused.exit_code == 2, lang
+
+
 def test_the_list_is_the_folders() -> None:
     result = CliRunner().invoke(harness, ["--list"])
     assert result.exit_code == 0
     listed = [line.split()[0] for line in result.output.splitlines()]
     folders = {entry.name for entry in files("raycert.oracle.starters").iterdir() if entry.is_dir()}
-    assert set(listed) == {*STARTERS, READERS} == folders - {"__pycache__"}
+    assert set(listed) == {*STARTERS, READERS} == folders - {"__pycache__", FUNCTION}
 
 
 def test_a_missing_toolchain_is_a_skip_and_on_ci_a_failure(
