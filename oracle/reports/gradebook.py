@@ -6,7 +6,7 @@ says is hostile until `foreign` has seen it; a row keeps it as it is.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Literal
 
 from raycert.cases.levels import upto
@@ -139,29 +139,29 @@ def why(row: Json) -> list[str]:
     if row["reason"]:
         return [row["reason"]]
     declared = row["domain"]["words"] if row["domain"] else ""
-    said = [f"for {declared}"] if declared else []
-    failing = [(name, solid) for name, solid in row["solids"].items() if not solid["holds"]]
-    for name, solid in sorted(failing, key=lambda item: -item[1]["failed"]):
-        said += [f"{spoken(name)}: {words}" for words in _reasons(solid)]
-    return said + _conventions(row)
+    found: dict[str, list[str]] = {}
+    for name, solid in sorted(row["solids"].items(), key=lambda item: -item[1]["failed"]):
+        for words, detail in _reasons(solid):
+            found.setdefault(words, []).append(f"{spoken(name)}{detail}")
+    said = [f"{', '.join(solids)}: {words}" for words, solids in found.items()]
+    return [f"for {declared}", *said] if declared else said
 
 
-def _reasons(solid: Json) -> list[str]:
-    found, level = solid["likely"], solid["level"]
-    said = [solid["misread"]] if solid["misread"] else []
-    said += [f"{found['does']} ({found['rows']:,} of {found['of']:,})"] if found else []
-    said += [f"{level} for {solid['measured']}"] if solid["measured"] else []
-    refused = solid["refused"]
-    return said + ([f"{refused:,} of {solid['failed']:,} refused"] if refused else [])
-
-
-def _conventions(row: Json) -> list[str]:
-    """Return the conventions that are followed and were not asked."""
-    followed: dict[str, list[str]] = {}
-    for name, solid in row["solids"].items():
+def _reasons(solid: Json) -> Iterator[tuple[str, str]]:
+    """Yield what is to be said of a solid, each with what is of this solid alone."""
+    if solid["holds"]:
         if not solid["follows"]:
-            followed.setdefault(solid["convention"], []).append(spoken(name))
-    return [f"{', '.join(names)}: convention {what}" for what, names in followed.items()]
+            yield f"convention {solid['convention']}", ""
+        return
+    found, level, refused = solid["likely"], solid["level"], solid["refused"]
+    if solid["misread"] and not (found and found["rows"] == found["of"]):
+        yield solid["misread"], ""
+    if found:
+        yield found["does"], f" ({found['rows']:,} of {found['of']:,})"
+    if solid["measured"]:
+        yield f"{level} for {solid['measured']}", ""
+    if refused:
+        yield "refused", f" ({refused:,} of {solid['failed']:,})"
 
 
 def spoken(name: str) -> str:

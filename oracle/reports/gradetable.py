@@ -19,7 +19,7 @@ SHORT = {
     "intersection": "int.", "difference": "diff.", "stable": "stab.", "faithful": "faith",
 }  # fmt: skip
 """Names for a narrow terminal, of five characters at most."""
-ROOM = 26
+ROOM = 44
 """From this width on the reasons have a column."""
 NAME, GAP = 24, 1
 STYLES = {"granted": "green", "part": "green", "refused": "red", "interrupted": "red"}
@@ -38,10 +38,11 @@ def report(book: Json, console: Console) -> None:
     names = min(names, max((len(title(row)) for row in book["targets"]), default=0), NAME)
     room = console.width - _rest(book, short) - names - GAP
     console.print(_table(book, short, names, room))
-    for row in book["targets"] if room < ROOM else ():
-        if said := why(row):
-            name = Text(clean(title(row), NAME), "bold")
-            console.print(Text.assemble(name, f"  {clean('; '.join(said), 300)}"))
+    reasons = [(row, said) for row in book["targets"] if (said := why(row))]
+    for n, (row, said) in enumerate(reasons if room < ROOM else ()):
+        name = Text(clean(title(row), NAME), "bold")
+        gap = "" if n else "\n"
+        console.print(Text.assemble(gap, name, f"  {clean('; '.join(said), 300)}"))
     console.print(Text(f"\n{KEY}" if book["solids"] else "", "dim"))
     good = all(row["state"] in GOOD for row in book["targets"])
     console.print(Text(summary(book), "bold green" if good else "bold red"))
@@ -128,6 +129,7 @@ def _words(solid: Json | None) -> str:
 def page(book: Json) -> str:
     """Return a gradebook as a page in the folder of the certificates."""
     book = legible(book)
+    targets = book["targets"]
     return render(
         "gradebook.html",
         ("page.css", "gradebook.css"),
@@ -136,6 +138,7 @@ def page(book: Json) -> str:
         summary=summary(book),
         good=all(row["state"] in GOOD for row in book["targets"]),
         rows=list(_lines(book)),
+        asked=sorted({f"{r['asked']['level']} and {r['asked']['convention']}" for r in targets}),
     )
 
 

@@ -87,7 +87,7 @@ def test_a_row_says_what_the_certificate_does() -> None:
     assert found["solids"]["cylinder"]["likely"] == {
         "fault": "some-fault", "does": "does likely this", "rows": 8, "of": 9,
     }  # fmt: skip
-    assert "cylinder: does likely this (8 of 9)" in why(row("bad", found))
+    assert "cylinder (8 of 9): does likely this" in why(row("bad", found))
     assert graded(made_up.good())["state"] == "granted"
     assert why(row("good", graded(made_up.good()))) == []
 
