@@ -73,6 +73,15 @@ def read_as(name: object, data: bytes, read: Callable[[object], T]) -> T:
         raise BadFile(f"{name}: {error}") from None
 
 
+def read_toml(path: Path) -> dict[str, Any]:
+    """Return what a TOML file says. Raises `BadFile`."""
+    text = read_text(path)
+    try:
+        return decode_toml(text)
+    except ValueError as error:
+        raise BadFile(f"{path}: {error}") from None
+
+
 def decode_text(data: bytes) -> str:
     """Return a text in UTF-8. Raises `ValueError`."""
     if data.startswith(BOM):

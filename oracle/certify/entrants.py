@@ -28,7 +28,7 @@ from json import dumps
 from pathlib import Path
 from typing import Any
 
-from raycert.cases.files import BadFile, decode_toml, read_text
+from raycert.cases.files import BadFile, read_toml
 from raycert.cases.hints import near
 from raycert.cases.levels import LEVELS, Level
 from raycert.cases.protocol import BadLine, Hello, convention
@@ -95,12 +95,7 @@ def read_entrants(path: Path, over: Mapping[str, Any] | None = None) -> list[Ent
 
     Raises `BadFile`, which names the key.
     """
-    text, folder = read_text(path), path.absolute().parent
-    try:
-        form = decode_toml(text)
-    except ValueError as error:
-        raise BadFile(f"{path}: {error}") from None
-    return _Reader(str(path), folder).entrants(form, over or {})
+    return _Reader(str(path), path.absolute().parent).entrants(read_toml(path), over or {})
 
 
 def entrants_each(

@@ -7,13 +7,12 @@ that is loaded answers as it declares itself, so that how it answers is not the 
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from raycert.cases.files import TOO_DEEP, BadFile, read_as, read_file, read_text
+from raycert.cases.files import BadFile, read_as, read_file, read_toml
 from raycert.cases.protocol import VERSION, BadLine, Hello
 from raycert.oracle.client.dialogue import Dialogue, Limits, Target, Unusable
 from raycert.oracle.client.inprocess import InProcess
@@ -56,14 +55,7 @@ class Declared:
 def read_declared(path: Path) -> dict[str, Any]:
     """Return the fields that a file gives; TOML by the suffix .toml. Raises `BadFile`."""
     if path.suffix == ".toml":
-        try:
-            return _fields(path, tomllib.loads(read_text(path)))
-        except BadFile:
-            raise
-        except RecursionError:
-            raise BadFile(f"{path}: {TOO_DEEP}") from None
-        except ValueError as error:
-            raise BadFile(f"{path}: is not TOML: {error}") from None
+        return _fields(path, read_toml(path))
     return read_as(path, read_file(path), lambda form: _fields(path, form))
 
 

@@ -20,10 +20,15 @@ from raycert.oracle.commands.options import (
     FOLDER,
     KNOWN_FILE,
     BadInput,
+    OneOf,
     check_convention,
     golden_option,
+    json_option,
     level_option,
     limits_options,
+    out_option,
+    repeatable,
+    statuses,
     stop,
     unknown,
     write_out,
@@ -70,6 +75,7 @@ level = "stable"
 # hello = { domain = { distance = 1e6, size = [1e-4, 1e4] }, degenerate = ["zero_direction"] }
 """
 
+STATUSES = {0: "all are granted", 1: "some are not", 3: "none of them could be run"}
 EPILOG = """\b
 FILE has a table for each target (raycert field --example shows one of all kinds):
   [targets.mine]
@@ -91,17 +97,14 @@ certificate.json and index.html. A target is asked again only if its files, what
 is asked of it, the corpus or raycert have changed, or with --again. Ctrl-C keeps
 what is done. A target that cannot be run is a row with its reason.
 
-\b
-Exit status: 0 all are granted, 1 some are not, 2 bad usage or input, 3 none could
-be run, 4 an output could not be written, which is said last.
 """
+EPILOG += statuses(STATUSES)
 
 
 @click.command(epilog=EPILOG)
 @click.argument("file", type=KNOWN_FILE, required=False)
 @click.argument("names", nargs=-1)
-@click.option("--each", "patterns", multiple=True, metavar="GLOB",
-              help="A target for each such file, instead of FILE (repeatable).")  # fmt: skip
+@repeatable("--each", "patterns", "A target for each such file, instead of FILE", metavar="GLOB")
 @click.option("--words", help="How each is run, {} being the file: 'python3 {}'.")
 @level_option("sound")
 @click.option("--convention", default="closed", show_default=True, help="As for certify.")
@@ -109,12 +112,12 @@ be run, 4 an output could not be written, which is said last.
 @golden_option
 @click.option("--workers", type=click.IntRange(1, 256), help="Targets at a time.  [the cores]")
 @click.option("--again", is_flag=True, help="Ask again what is done.")
-@click.option("--sort", "order", type=click.Choice(("file", "name", "left")), default="file",
+@click.option("--sort", "order", type=OneOf(("file", "name", "left")), default="file",
               show_default=True, help="The order of the table.")  # fmt: skip
-@click.option("--out", type=FOLDER, default="gradebook", show_default=True)
-@click.option("--json", "out_json", type=FILE_OR_DASH, metavar="FILE", help="The table as JSON.")
+@out_option(FOLDER, "For the table and the certificates.", default="gradebook", show_default=True)
+@json_option("The table", "out_json")
 @click.option("--markdown", type=FILE_OR_DASH, metavar="FILE",
-              help="A summary for a CI turn, added to what FILE holds.")  # fmt: skip
+              help="A summary for a CI job, added to what FILE holds.")  # fmt: skip
 @click.option("--example", is_flag=True, help="Print an example of FILE, and end.")
 @limits_options
 @held()
@@ -127,7 +130,8 @@ def field(file: Path | None, names: tuple[str, ...], **options: Any) -> None:
     book = _Book(entrants, _chosen(entrants, names, file), file, options)
     book.certify()
     form = book.written()
-    _print(form)
+    if str(options["out_json"]) != "-":
+        _print(form)
     states = [row["state"] for row in form["targets"]]
     if all(state in ("not run", "not asked") for state in states):
         if form["interrupted"]:

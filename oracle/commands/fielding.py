@@ -113,6 +113,10 @@ def _counting(number: int, verb: str, total: int) -> Iterator[Callable[..., None
     yield advance
 
 
+def _listened(board: Connection) -> None:
+    _to_board.append(board)
+
+
 def _tell(*words: int | str) -> None:
     """Send a few words: less than a pipe takes whole, so that lanes need no lock."""
     for board in _to_board:
@@ -128,7 +132,7 @@ class _Lane:
     future: Future[Came] = field(default_factory=Future)
 
     def __post_init__(self) -> None:
-        self._pool = Workers(1, _to_board.append, self.board)
+        self._pool = Workers(1, _listened, self.board)
 
     def begin(self, turn: Turn) -> None:
         self.turn, self.future = turn, self._pool.submit(work, turn)

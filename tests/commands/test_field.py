@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from raycert.oracle.commands import field as verb
 from raycert.oracle.commands.field import EXAMPLE
 from raycert.oracle.commands.main import main
 from shared.certificates import Json
@@ -86,10 +87,28 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+HEARD: set[tuple[int, str]] = set()
+"""How far the board of the first run was told that targets are."""
+
+
 @pytest.fixture(scope="module")
 def first(place: Path) -> tuple[Result, Json]:
     markdown = ("--markdown", str(place / "table.md"))
-    return field(place, str(place / "class.toml"), *markdown, "--sort", "name")
+
+    def heard(_: object, number: int, verb: str, done: int, total: int) -> None:
+        assert 0 <= done <= total
+        HEARD.add((number, verb))
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(verb._Board, "progress", heard)
+        return field(place, str(place / "class.toml"), *markdown, "--sort", "name")
+
+
+def test_the_board_is_told_how_far_each_is(first: tuple[Result, Json]) -> None:
+    _, book = first
+    ran = sum(row["state"] in ("granted", "refused") for row in book["targets"])
+    assert len([number for number, what in HEARD if what == "judging"]) == ran
+    assert {what for _, what in HEARD} >= {"asking", "judging"}
 
 
 def test_none_stops_the_others_and_each_has_its_reason(first: tuple[Result, Json]) -> None:
