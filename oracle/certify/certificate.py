@@ -13,7 +13,7 @@ from __future__ import annotations
 import json
 import shlex
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from math import isfinite
 from typing import Any
@@ -46,8 +46,6 @@ from raycert.oracle.judge.levels import MEASURES
 from raycert.oracle.zoo.matrix import kind as how
 
 Json = dict[str, Any]
-Repeat = Callable[[str], str]
-"""From a row's id to the command that asks it again."""
 CERTIFICATE_VERSION = 2
 DIFFERENCES = ("expected", "new", "unexpected_passes", "unmatched")
 """What a file of known failures may have to say of a run."""
@@ -85,6 +83,16 @@ class Request:
     def repeat_row(self, id: str) -> str:
         """Return the command line that asks one row again, drawn anew if it was."""
         return self.repeat(*(self.fresh if id.startswith("fresh-") else ()), "--id", id)
+
+    def explain_row(self, row: GoldenRow, precision: str) -> str:
+        """Return the command that derives a case: by id, or by its numbers where it was drawn."""
+        other = () if precision == "binary64" else ("--precision", precision)
+        if not row.id.startswith("fresh-"):
+            return shlex.join(["raycert", "explain", *self.golden, *other, row.id])
+        case = _case(row)
+        given = json.dumps({name: case[name] for name in ("solid", "ray")}, separators=(",", ":"))
+        derive = shlex.join(["raycert", "explain", *other, "--case", "-"])
+        return f"echo {shlex.quote(given)} | {derive}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,7 +177,7 @@ def _question(request: Request, hello: Hello, corpus: Corpus, shard: str | None)
 
 
 def _results(request: Request, hello: Hello, grades: Sequence[Grade]) -> Json:
-    level, repeat, groups = request.level, request.repeat_row, by_solid(grades)
+    level, groups = request.level, by_solid(grades)
     return {
         "not_decisive": {name: _not_decisive(usual(grades), name) for name in MEASURES},
         "solids": {group.name: _solid(group, hello) for group in groups},
@@ -177,8 +185,8 @@ def _results(request: Request, hello: Hello, grades: Sequence[Grade]) -> Json:
             _family(family, solid.name) for solid in groups for family in by_family(solid.grades)
         ],
         "table": case_table(grades, level),
-        "worst": worst(grades, level, hello, repeat),
-        "failures": [_failure(g, kind(g, _lowest(g), hello), repeat) for g in grades if g.faults],
+        "worst": worst(grades, request, hello),
+        "failures": [_failure(g, kind(g, _lowest(g), hello), request) for g in grades if g.faults],
     }
 
 
@@ -304,18 +312,19 @@ def case_table(grades: Sequence[Grade], level: Level) -> Json:
     }
 
 
-def worst(grades: Sequence[Grade], level: Level, hello: Hello, repeat: Repeat) -> list[Json]:
+def worst(grades: Sequence[Grade], request: Request, hello: Hello) -> list[Json]:
     """Return the cases to look at first, with all that a picture of them needs.
 
     Failures of the level, the gravest first, but each time the first of the family and the kind of
     failure that were chosen least. Where nothing failed, the largest errors. The range tier is
     left out.
     """
+    level = request.level
     failing = [g for g in usual(grades) if g.fault(level)]
     passing = [] if failing else [g for g in usual(grades) if g.counts(level)]
     kinds = [(g, kind(g, level, hello)) for g in failing or passing]
     chosen = _spread(kinds, MOST if failing else MOST_PASSED)
-    return [_pictured(g, name, level, hello, repeat) for g, name in chosen]
+    return [_pictured(g, name, request, hello) for g, name in chosen]
 
 
 def _spread(kinds: Sequence[tuple[Grade, str]], most: int) -> list[tuple[Grade, str]]:
@@ -344,16 +353,16 @@ def _spread(kinds: Sequence[tuple[Grade, str]], most: int) -> list[tuple[Grade, 
     return chosen
 
 
-def _pictured(g: Grade, name: str, level: Level, hello: Hello, repeat: Repeat) -> Json:
-    inner, outer = _band(g, level, hello)
+def _pictured(g: Grade, name: str, request: Request, hello: Hello) -> Json:
+    inner, outer = _band(g, request.level, hello)
     return {
-        **_failure(g, name, repeat),
+        **_failure(g, name, request),
         "rows": list(g.row.rows),
         "exact": [
             {"enter": _end(s.enter), "leave": _end(s.leave), "touch": s.touch}
             for s in g.row.intervals
         ],
-        "accept": {"level": level, "inner": _pairs(inner), "outer": _pairs(outer)},
+        "accept": {"level": request.level, "inner": _pairs(inner), "outer": _pairs(outer)},
     }
 
 
@@ -397,7 +406,7 @@ def _band(grade: Grade, level: Level, hello: Hello) -> tuple[Numbers, Numbers]:
     return inner, tuple((enter[0], leave[1]) for enter, leave in around)
 
 
-def _failure(grade: Grade, name: str, repeat: Repeat) -> Json:
+def _failure(grade: Grade, name: str, request: Request) -> Json:
     return {
         **_case(grade.row),
         "why": grade.row.why,
@@ -406,18 +415,9 @@ def _failure(grade: Grade, name: str, repeat: Repeat) -> Json:
         "kind": name,
         "faults": dict(grade.faults),
         **_answered(grade),
-        "reproduce": repeat(grade.row.id),
-        "explain": explaining(grade.row),
+        "reproduce": request.repeat_row(grade.row.id),
+        "explain": request.explain_row(grade.row, grade.judge.format.name),
     }
-
-
-def explaining(row: GoldenRow) -> str:
-    """Return the command that derives a case: by its id, or by its numbers where it was drawn."""
-    if not row.id.startswith("fresh-"):
-        return f"raycert explain {row.id}"
-    case = _case(row)
-    given = json.dumps({name: case[name] for name in ("solid", "ray")}, separators=(",", ":"))
-    return f"raycert explain --case - <<< {shlex.quote(given)}"
 
 
 def _case(row: GoldenRow) -> Json:

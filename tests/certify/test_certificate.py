@@ -2,6 +2,7 @@
 
 import copy
 import json
+import shlex
 from collections.abc import Callable
 from functools import cache
 from importlib.resources import files
@@ -10,12 +11,20 @@ from typing import Any
 
 import jsonschema
 import pytest
+from click.testing import CliRunner
 
 import shared.certificates as made_up
+from raycert.cases.formats import FORMATS
+from raycert.cases.forms import write_ray
 from raycert.cases.levels import LEVELS
 from raycert.cases.protocol import Hello
+from raycert.cases.row import write_row
+from raycert.oracle.certify.certificate import Request
 from raycert.oracle.certify.environment import PACKAGES, environment, source_sha256, tool_sha256
+from raycert.oracle.commands.main import main
+from raycert.oracle.corpus.fresh import fresh_rows
 from shared.certificates import Json, made, planted
+from shared.corpus import golden
 
 
 @cache
@@ -172,3 +181,18 @@ def test_the_environment_names_the_tool() -> None:
     assert tool["name"] == "raycert"
     assert tool["sha256"] == tool_sha256()
     assert tool["sha256"] != source_sha256(Path("/nonexistent"))
+
+
+@pytest.mark.parametrize("precision", FORMATS)
+@pytest.mark.parametrize("kind", ["golden", "fresh"])
+def test_the_line_that_explains_a_row_derives_it(precision: str, kind: str) -> None:
+    fmt = FORMATS[precision]
+    row = fresh_rows(3, 1, fmt, ["sphere"])[0] if kind == "fresh" else golden(precision).rows[0]
+    line = Request("sound", "closed", ("t",), ()).explain_row(row, precision)
+    given, _, explain = line.rpartition("|") if kind == "fresh" else ("", "", line)
+    (_, *words), case = shlex.split(explain), shlex.split(given)[1:]
+    said = CliRunner().invoke(main, [*words, "--json", "-"], input="".join(case))
+    assert said.exit_code == 0, said.output
+    found = json.loads(said.stdout)["row"]
+    assert found["ray"] == write_ray(row.ray, "hex")
+    assert found["expected"] == write_row(row, fmt)["expected"]
