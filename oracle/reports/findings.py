@@ -68,10 +68,13 @@ def listed(parts: list[str]) -> str:
     return " and ".join(filter(None, (", ".join(parts[:-1]), *parts[-1:])))
 
 
-def causes(certificate: Json) -> list[LikelyFault]:
-    """Return the likely faults, each once, what explains most first."""
+def causes(certificate: Json, lowest: bool = False) -> list[LikelyFault]:
+    """Return the likely faults, each once, what explains most first.
+
+    Those of all levels asked for, or of the `lowest` that each type of solid fails.
+    """
     told: dict[str, list[tuple[Json, Json]]] = {}
-    for found in _explained(certificate):
+    for found in _explained(certificate, lowest):
         for cause in found["explained"]:
             told.setdefault(cause["fault"], []).append((found, cause))
     return sorted(map(_cause, told.values()), key=lambda cause: -cause.rows)
@@ -83,9 +86,11 @@ def _cause(pairs: list[tuple[Json, Json]]) -> LikelyFault:
     return LikelyFault(first["fault"], first["does"], first["origin"], first["first"], tuple(on))
 
 
-def _explained(certificate: Json) -> list[Json]:
+def _explained(certificate: Json, lowest: bool) -> list[Json]:
     asked = levels_asked(certificate)
-    return [found for found in certificate["likely"] if found["level"] in asked]
+    found = [found for found in certificate["likely"] if found["level"] in asked]
+    first = {one["solid"]: one for one in reversed(found)}
+    return [one for one in found if not lowest or first[one["solid"]] is one]
 
 
 def likely(certificate: Json) -> list[str]:
@@ -94,11 +99,11 @@ def likely(certificate: Json) -> list[str]:
     return found + ([left] if found and (left := unexplained(certificate)) else [])
 
 
-def unexplained(certificate: Json) -> str:
+def unexplained(certificate: Json, lowest: bool = False) -> str:
     """Return how many failures no known fault explains; empty for none."""
     left = [
         f"{found['unexplained']:,} {_failures(found['solid'], found['level'])}"
-        for found in _explained(certificate)
+        for found in _explained(certificate, lowest)
         if found["unexplained"]
     ]
     return f"explained by none: {listed(left)}" if left else ""

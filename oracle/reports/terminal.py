@@ -133,10 +133,12 @@ def _row(cells: Iterable[str], styles: list[str], wide: list[int], width: int) -
 def _below(certificate: Json, name: str) -> list[str]:
     """Return what is said of a type of solid below its levels."""
     level, solid = certificate["asked"]["level"], certificate["solids"][name]
-    tally = solid["levels"][level]
-    refused = tally["refused"]
-    lines = [f"{refused} of the {tally['failed']} are refused ({level})"] if refused else []
-    return lines + findings.measured(certificate, name)
+    refused, failed = solid["levels"][level]["refused"], solid["levels"][level]["failed"]
+    lines = findings.measured(certificate, name)
+    if refused:
+        said = f"{'all' if refused == failed else refused} of {failed} are refused"
+        lines[-1:] = [f"{line}; {said}" for line in lines[-1:]] or [said]
+    return lines
 
 
 # What is beside the levels.
@@ -151,10 +153,10 @@ def _beside(certificate: Json, width: int, verbose: bool) -> list[Text]:
 
 
 def _likely(certificate: Json, width: int) -> list[Text]:
-    found = [str(cause) for cause in findings.causes(certificate)]
+    found = [str(cause) for cause in findings.causes(certificate, lowest=True)]
     if not found:
         return []
-    left = findings.unexplained(certificate)
+    left = findings.unexplained(certificate, lowest=True)
     return [
         Text("\nLikely faults", "bold"),
         *_some(found, CAUSES, width, 2),
@@ -165,10 +167,11 @@ def _likely(certificate: Json, width: int) -> list[Text]:
 def _easy(certificate: Json, width: int) -> list[Text]:
     found = list(findings.easy(certificate))
     lines = [Text("\nEasy cases", "bold")] if found else []
-    for i, (said, first) in enumerate(found):
+    for said, first in found[:1]:
         lines += _wrapped(said, width, 2)
-        lines += _case(first, str(first["answer"]), str(first["expected"]), width) if i < 1 else []
-    return lines
+        lines += _case(first, str(first["answer"]), str(first["expected"]), width)
+    rest = "; ".join(said for said, _ in found[1:])
+    return lines + (_wrapped(rest, width, 2) if rest else [])
 
 
 def _case(case: Json, answer: str, expected: str, width: int) -> list[Text]:
