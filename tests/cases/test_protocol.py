@@ -18,6 +18,7 @@ from raycert.cases.protocol import (
     ANSWERS,
     FROM_INSIDE,
     TOUCHES,
+    Answers,
     BadLine,
     Hello,
     Reply,
@@ -285,6 +286,18 @@ def test_a_bad_reply_says_what_is_wrong(text: bytes, says: str, hello: Hello):
     with pytest.raises(BadLine, match=says) as caught:
         read_reply(text, hello)
     assert len(str(caught.value)) < 300
+
+
+@pytest.mark.parametrize("answers", ANSWERS)
+def test_a_reply_of_another_form_is_told_the_right_one(answers: Answers):
+    """The form that is told is a reply, once its words are numbers."""
+    with pytest.raises(BadLine, match=f"the hello says {answers}: reply ") as caught:
+        read_reply(line(id="7", distance=2), Hello("x", answers=answers))
+    _, _, form = str(caught.value).partition("reply ")
+    for word in ("[[enter, leave], ...]", "t or null", "true or false", "..."):
+        form = form.replace(word, {"...": '"7"', "true or false": "true"}.get(word, "null"))
+    form = form.replace('"intervals": null', '"intervals": []')
+    assert read_reply(form.encode(), Hello("x", answers=answers)).id == "7"
 
 
 @QUICK
