@@ -113,3 +113,10 @@ def test_what_was_found_is_said() -> None:
         "note: a note",
     ):
         assert words in " ".join(text.split()), words
+
+
+def test_a_row_outside_the_domain_is_no_failure() -> None:
+    form = copy.deepcopy(made_up.bad())
+    before = sum(kind.rows for kind in kinds(form))
+    failing(form)[0]["place"] = "outside"
+    assert sum(kind.rows for kind in kinds(form)) == before - 1
