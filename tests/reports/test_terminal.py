@@ -7,10 +7,13 @@ import re
 from io import StringIO
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from rich.console import Console
 
 import shared.certificates as made_up
 from raycert.oracle.reports.findings import kinds
+from raycert.oracle.reports.inputs import assignments, length
 from raycert.oracle.reports.reading import failing
 from raycert.oracle.reports.terminal import report
 from shared.certificates import Json
@@ -71,6 +74,10 @@ def test_one_failure_of_each_kind_is_shown_the_simplest_first_and_explained() ->
     assert len(found) > 2
     assert {kind.name for kind in found} == {failed["kind"] for failed in failing(form)}
     assert sum(kind.rows for kind in found) == len(failing(form))
+    for kind in found:
+        alike = [failed for failed in failing(form) if failed["kind"] == kind.name]
+        assert length(kind.first) == min(map(length, alike))
+    assert [length(kind.first) for kind in found] == sorted(length(kind.first) for kind in found)
     places = [text.index(f"  {kind.name}, {kind.rows}") for kind in found]
     assert places == sorted(places)
     for kind in found:
@@ -120,3 +127,21 @@ def test_a_row_outside_the_domain_is_no_failure() -> None:
     before = sum(kind.rows for kind in kinds(form))
     failing(form)[0]["place"] = "outside"
     assert sum(kind.rows for kind in kinds(form)) == before - 1
+
+
+@given(
+    st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=3, max_size=3),
+    st.integers(30, 120),
+)
+def test_decimals_are_the_numbers_and_lines_break_after_commas(x: list[float], width: int) -> None:
+    hexed = [number.hex() for number in x]
+    case = {"solid": {"type": "sphere", "center": hexed}, "ray": {"origin": hexed}}
+    lines = assignments(case, width)
+    code = "\n".join(lines)
+    names: dict[str, Json] = {}
+    exec(code, names)  # it is code of ours, made of these numbers
+    for part, field in (("solid", "center"), ("ray", "origin")):
+        assert [number.hex() for number in names[part][field]] == hexed
+    broken = [line for line in lines[:-1] if not line.endswith(",")]
+    assert all(line.endswith("}") for line in broken)
+    assert all(len(line) <= width for line in lines if line.count(", "))
