@@ -39,7 +39,7 @@ def test_golden_rows_come_out_as_expected(precision: str) -> None:
             assert found.pairs(i) == row.expected, row.id
 
 
-@settings(max_examples=200)
+@settings(max_examples=100)
 @given(scenes())
 def test_scenes_of_the_strategies(scene: tuple[Solid, Ray]) -> None:
     solid, ray = scene

@@ -42,6 +42,7 @@ def rows() -> tuple[GoldenRow, ...]:
     return tuple(row for row in golden().rows if row.tier != "range")[::3]
 
 
+@cache
 def graded(answer: Callable[[GoldenRow], Numbers], hello: Hello = ALL) -> tuple[Grade, ...]:
     return tuple(grade(row, Reply(row.id, intervals=answer(row)), hello) for row in rows())
 

@@ -89,7 +89,7 @@ def test_a_loss_keeps_what_was_found_and_is_three(out, monkeypatch):
 
 
 def test_workers_find_what_one_finds(out, tmp_path):
-    options = ["--cases", "1000", "--most", "1", "--no-golden"]
+    options = ["--cases", "600", "--most", "1", "--no-golden"]
     one = run(spec("padded-radius"), *options, "--out", str(out))
     two = run(spec("padded-radius"), *options, "--workers", "2", "--out", str(tmp_path / "two"))
     assert one.exit_code == two.exit_code == 1

@@ -115,6 +115,9 @@ def test_a_cluster_that_is_lost_is_said(cluster, hasty, tmp_path):
     for process in cluster.workers:
         process.kill()
     executor.submit(Unit(1))
+    deadline = time.monotonic() + 20
+    while executor._heart.workers and time.monotonic() < deadline:
+        time.sleep(0.05)  # a loaded scheduler takes a while to miss them
     assert "no worker is left" in loss(executor)
     executor.close()
 
