@@ -253,7 +253,7 @@ class _Book:
     def row(self, entrant: Entrant) -> Json:
         from raycert.oracle.reports.gradebook import without
 
-        came = self.came.get(entrant.name) or without("not asked", "interrupted before its turn")
+        came = self.came.get(entrant.name) or without("not asked", "interrupted before it was done")
         there = bool(came["solids"])
         return {
             "name": entrant.name,
