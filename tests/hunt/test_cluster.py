@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import os
 import signal
+import subprocess
+import sys
 import time
 from collections.abc import Iterator
 from functools import partial
-from multiprocessing.process import BaseProcess
+from pathlib import Path
 from typing import NamedTuple
 
 import pytest
@@ -20,32 +22,70 @@ from raycert.oracle.hunt import executors
 from raycert.oracle.hunt.executors import Cluster, Here, Lost
 from raycert.oracle.hunt.pursuit import work
 from raycert.oracle.hunt.search import Budget, hunt
-from raycert.oracle.hunt.unit import Job, Ledger, Unit
-from shared.cluster import scheduler, start, worker
+from raycert.oracle.hunt.unit import Haul, Job, Ledger, Unit, Worst
 from shared.hunted_targets import spec
-from shared.hunted_work import slow, wrong
 
 pytest.importorskip("distributed", reason='needs pip install "raycert[cluster]"')
 pytestmark = pytest.mark.filterwarnings("default")  # those of Dask are its own
+
+START = {
+    "scheduler": (
+        "import asyncio, sys\n"
+        "from distributed import Scheduler\n"
+        "async def main():\n"
+        "    s = await Scheduler(host='127.0.0.1', port=0, dashboard=False)\n"
+        "    print(s.address, flush=True)\n"
+        "    await s.finished()\n"
+        "asyncio.run(main())\n"
+    ),
+    "worker": (
+        "import asyncio, sys\n"
+        "from distributed import Worker\n"
+        "async def main():\n"
+        "    w = await Worker(sys.argv[1], nthreads=1, dashboard=False)\n"
+        "    print(w.address, flush=True)\n"
+        "    await w.finished()\n"
+        "asyncio.run(main())\n"
+    ),
+}
+
+
+def start(kind: str, *words: str) -> subprocess.Popen[str]:
+    """Start a process of the cluster, which says its address."""
+    command = [sys.executable, "-c", START[kind], *words]
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+    return subprocess.Popen(command, text=True, **pipes)
 
 
 class Started(NamedTuple):
     """A cluster: the address of the scheduler, the workers, the scheduler."""
 
     address: str
-    workers: list[BaseProcess]
-    scheduler: BaseProcess
+    workers: list[subprocess.Popen[str]]
+    scheduler: subprocess.Popen[str]
 
 
 @pytest.fixture
 def cluster() -> Iterator[Started]:
     """Yield a cluster of two workers."""
-    first, address = start(scheduler)
-    workers = [start(worker, address)[0] for _ in range(2)]
-    yield Started(address, workers, first)
-    for process in (*workers, first):
+    scheduler = start("scheduler")
+    address = scheduler.stdout.readline().strip()
+    workers = [start("worker", address) for _ in range(2)]
+    for worker in workers:
+        worker.stdout.readline()
+    yield Started(address, workers, scheduler)
+    for process in (*workers, scheduler):
         process.kill()
-        process.join()
+        process.wait()
+        process.stdout.close()
+
+
+def slow(folder: str, unit: Unit) -> Haul:
+    """Take a while, and leave a mark each time the unit is begun."""
+    with open(Path(folder) / f"{unit.number}", "a") as file:
+        file.write(f"{os.getpid()}\n")
+    time.sleep(0.4)
+    return Haul(unit.number, unit.cases, Worst(), ())
 
 
 def test_a_worker_that_dies_loses_nothing_and_nothing_counts_twice(cluster, tmp_path):
@@ -60,7 +100,7 @@ def test_a_worker_that_dies_loses_nothing_and_nothing_counts_twice(cluster, tmp_
             assert ledger.add(result)
         if ledger.results and not killed:
             time.sleep(0.2)  # both workers are in the middle of a unit
-            workers[0].kill()
+            workers[0].send_signal(signal.SIGKILL)
             killed = True
     executor.close()
     assert killed
@@ -78,7 +118,7 @@ def test_a_hunt_on_a_cluster_that_loses_a_worker_finds_what_it_finds_here(cluste
 
     class Unlucky(Cluster):
         def finished(self, seconds):
-            workers[1].kill()
+            workers[1].send_signal(signal.SIGKILL)
             return super().finished(seconds)
 
     shared = hunt(job, budget, Unlucky(partial(work, job), address))
@@ -107,13 +147,13 @@ def loss(executor: Cluster) -> str:
 def test_a_cluster_that_is_lost_is_said(cluster, hasty, tmp_path):
     work = partial(slow, str(tmp_path))
     executor = Cluster(work, cluster.address)
-    os.kill(cluster.scheduler.pid, signal.SIGSTOP)
+    cluster.scheduler.send_signal(signal.SIGSTOP)
     assert "the scheduler does not answer" in loss(executor)
     executor.close()
-    os.kill(cluster.scheduler.pid, signal.SIGCONT)
+    cluster.scheduler.send_signal(signal.SIGCONT)
     executor = Cluster(work, cluster.address)
-    for process in cluster.workers:
-        process.kill()
+    for worker in cluster.workers:
+        worker.kill()
     executor.submit(Unit(1))
     deadline = time.monotonic() + 20
     while executor._heart.workers and time.monotonic() < deadline:
@@ -137,6 +177,10 @@ def test_a_cluster_that_is_not_there_is_said(monkeypatch):
     monkeypatch.setattr(executors, "CONNECT", 0.5)
     with pytest.raises(Lost, match=r"127\.0\.0\.1:9"):
         executors.Cluster(partial(slow, "."), "tcp://127.0.0.1:9")
+
+
+def wrong(unit: Unit) -> Haul:
+    raise ValueError("a fault of ours")
 
 
 def test_a_fault_of_the_work_is_raised_and_another_version_is_said(cluster, monkeypatch):

@@ -2,7 +2,6 @@
 
 import os
 import signal
-import time
 from pathlib import Path
 
 from raycert.oracle.hunt.unit import Haul, Worst
@@ -10,14 +9,6 @@ from raycert.oracle.hunt.unit import Haul, Worst
 
 def easy(unit):
     return Haul(unit.number, unit.cases, Worst(), ())
-
-
-def slow(folder, unit):
-    """Takes a while, and leaves a mark each time the unit is begun."""
-    with open(Path(folder) / f"{unit.number}", "a") as file:
-        file.write(f"{os.getpid()}\n")
-    time.sleep(0.4)
-    return easy(unit)
 
 
 def deadly_once(folder, unit):
