@@ -5,7 +5,10 @@ counted on how many rows it would fail, and on how many of them the subject answ
 many agree by chance with a probability of at most 2^-bits (Chernoff, for independent rows), if the
 subject failed anywhere and in any way: a row is failed in a way as often as all rows are. So a
 fault that would fail many rows which the subject passes needs the more agreements, and one that
-only misses needs misses where it would miss, and not elsewhere.
+only misses needs misses where it would miss, and not elsewhere. Rows that fail are not independent:
+they stand together in families, where a quantity that is too large for a tracer looks like many a
+fault. So one that agrees in misses alone is not named if it would fail more rows which the subject
+passes than it explains; numbers that agree speak for themselves.
 
 To take what is least by chance first, and to judge the others by what is left, is enough: the rows
 that two faults would explain are few where the faults are not the same, and the greedy cover is
@@ -89,10 +92,18 @@ def bits(suspect: Explanation, left: frozenset[int], failures: Failures) -> floa
         return suspect.telling * explained * enough
     rates = failures.rates(left)
     would = Counter(k for i, k in suspect.failed.items() if i in left)
-    total = sum(would.values()) + sum(suspect.passed.values())
+    passed = sum(suspect.passed.values())
+    if passed > explained and numbers(suspect.rows & left, failures) < LEAST:
+        return 0.0
+    total = sum(would.values()) + passed
     expected = sum(rates[k] * n for k, n in would.items())
     expected += sum(rates[k] * n for k, n in suspect.passed.items())
     return total * divergence(explained / total, expected / total)
+
+
+def numbers(rows: frozenset[int], failures: Failures) -> int:
+    """Return how many of these failures answer numbers."""
+    return sum(failures.kinds[i] == "numbers" for i in rows)
 
 
 def divergence(share: float, chance: float) -> float:

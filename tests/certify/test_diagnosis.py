@@ -8,8 +8,10 @@ from __future__ import annotations
 import random
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
 from math import hypot, inf, nan
+from typing import Any
 
 import pytest
 
@@ -19,7 +21,7 @@ from raycert.cases.formats import BINARY64
 from raycert.cases.model import Cylinder, Ray, Solid, type_of
 from raycert.cases.protocol import ANSWERS, Hello, Reply
 from raycert.cases.row import GoldenRow
-from raycert.oracle.certify.alike import close
+from raycert.oracle.certify.alike import Kind, close
 from raycert.oracle.certify.cover import (
     LEAST,
     Explanation,
@@ -183,6 +185,19 @@ def test_a_fault_needs_more_rows_than_a_few_and_than_chance() -> None:
     few, many = suspect("few", set(range(LEAST - 1))), suspect("many", set(range(12)), 12000)
     assert cover([few, many], failures(40), Counter()) == []
     assert divergence(12 / 12012, 40 / 340 / 8) == 0
+
+
+@pytest.mark.parametrize(("kind", "elsewhere", "named"), [
+    ("miss", 29, True), ("miss", 31, False), ("numbers", 31, True),
+])  # fmt: skip
+def test_misses_alone_name_no_fault_that_would_miss_elsewhere_too(
+    kind: Kind, elsewhere: int, named: bool
+) -> None:
+    """A radius that is not squared misses what is large, as a limit does, and much else."""
+    failing = Failures([kind] * 30, [True] * 30, 2000, 2000)
+    ways: dict[str, Any] = {"failed": dict.fromkeys(range(30), kind), "passed": {kind: elsewhere}}
+    fault = replace(suspect("fault", set(range(30))), **ways)
+    assert names(cover([fault], failing, Counter())) == ["fault"] * named
 
 
 def test_a_signature_makes_no_fault_needless() -> None:
