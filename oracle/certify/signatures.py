@@ -10,7 +10,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from math import hypot, isfinite, log2
+from math import hypot, isfinite, ldexp, log2
 
 from raycert.cases.formats import BINARY32, BINARY64
 from raycert.oracle.certify.alike import Manner, agrees, kind, numbers
@@ -83,11 +83,17 @@ def _times(change: Callable[[float, float], float]) -> Callable[[Grade], bool]:
 
 
 def _single(grade: Grade) -> bool:
-    """Whether all numbers are binary32, and no right one is that a binary64 client would give."""
+    """Whether all numbers are binary32, near the right ones, none of which is."""
     if grade.judge.format is not BINARY64:
         return False
     ends, right = [x for x in _ends(grade) if x], [x for x in _right(grade) if x]
-    return bool(ends) and all(map(_is_single, ends)) and not any(map(_is_single, right))
+    rounded = bool(ends) and all(map(_is_single, ends)) and not any(map(_is_single, right))
+    return rounded and len(ends) == len(right) and all(map(_near, ends, right))
+
+
+def _near(x: float, right: float) -> bool:
+    """Whether two numbers differ by some roundings of binary32."""
+    return abs(x - right) <= ldexp(abs(right), 8 - BINARY32.precision)
 
 
 def _is_single(x: float) -> bool:

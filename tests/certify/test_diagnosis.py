@@ -17,7 +17,7 @@ import pytest
 
 from raycert.cases.accept import Numbers
 from raycert.cases.domain import Domain
-from raycert.cases.formats import BINARY64
+from raycert.cases.formats import BINARY32, BINARY64
 from raycert.cases.model import Cylinder, Ray, Solid, type_of
 from raycert.cases.protocol import ANSWERS, Hello, Reply
 from raycert.cases.row import GoldenRow
@@ -119,6 +119,16 @@ def test_errors_are_told_by_their_text_and_without_numbers() -> None:
     assert cause["does"] == "says 'error: bad value # at #: division by zero'"
     assert cause["rows"] == record["failures"] > LEAST
     assert cause["first"] == next(g.row.id for g in grades if g.fault("sound"))
+
+
+def test_numbers_of_binary32_that_are_far_from_the_right_ones_are_not_rounded() -> None:
+    def far(row: GoldenRow) -> Reply:
+        return Reply(
+            row.id, intervals=tuple((BINARY32.nearest(3 * a), inf) for a, _ in row.expected)
+        )
+
+    for record in diagnose([grade(row, far(row), HELLO) for row in rows(4, "sphere")]):
+        assert "single" not in {cause["fault"] for cause in record["explained"]}
 
 
 @pytest.mark.parametrize(
