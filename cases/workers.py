@@ -75,9 +75,8 @@ def _blocked() -> Iterator[None]:
 
 def _begin(first: Callable[..., object] | None = None, *arguments: object) -> None:
     """Begin a worker: deaf to a terminal, ended by its parent's word or death."""
-    for each in SIGNALS:
-        signal.signal(each, signal.SIG_IGN)
-    signal.signal(signal.SIGTERM, _end_worker)
+    for each in SIGNALS:  # the parent's word may wait already: to ignore it even for now drops it
+        signal.signal(each, _end_worker if each == signal.SIGTERM else signal.SIG_IGN)
     if hasattr(signal, "pthread_sigmask"):
         signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
     threading.Thread(target=_end_with_parent, daemon=True).start()

@@ -68,3 +68,12 @@ def test_they_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
     parent.wait()
     assert len(pids) == 2
     assert gone(pids)
+
+
+def test_a_worker_that_is_ended_while_it_starts_ends(tmp_path: Path) -> None:
+    """Its signal waits until it can be heeded: ignored for a moment, it would be gone."""
+    pool = Workers(1)
+    pool.submit(linger, str(tmp_path))
+    began = time.monotonic()
+    pool.end()
+    assert time.monotonic() - began < 30
