@@ -7,9 +7,16 @@ from pathlib import Path
 
 import click
 
-from raycert.cases.formats import FORMATS
 from raycert.cases.protocol import ANSWERS, FROM_INSIDE, Answers, FromInside
-from raycert.oracle.commands.options import FOLDER, write_out
+from raycert.oracle.commands.options import (
+    FOLDER,
+    OneOf,
+    out_option,
+    precision_of,
+    statuses,
+    unknown,
+    write_out,
+)
 from raycert.oracle.reports.foreign import say
 from raycert.oracle.starters import (
     FUNCTION,
@@ -23,6 +30,7 @@ from raycert.oracle.starters import (
     templates,
 )
 
+LANGUAGES = (*STARTERS, READERS)
 EPILOG = """\b
 Each client is complete, and granted `stable` as it is: a port of the reference tracer
 stands in the place that is marked for yours. It needs the language's own toolchain only.
@@ -40,35 +48,27 @@ Examples:
   raycert harness python --in-process
   raycert harness readers
   raycert harness --list
+
 """
+EPILOG += statuses()
 
 
 @click.command(epilog=EPILOG)
 @click.argument("lang", required=False)
-@click.option(
-    "--out",
-    type=FOLDER,
-    help="Directory to write to  [default: tracer-LANG, or readers]",
-)
+@out_option(FOLDER, "Where its files go.  [tracer-LANG, or readers]")
 @click.option(
     "--answers",
-    type=click.Choice(ANSWERS),
+    type=OneOf(ANSWERS),
     default="intervals",
     show_default=True,
     help="What it answers: all intervals, the first hit, or whether there is any.",
 )
 @click.option(
     "--from-inside",
-    type=click.Choice(FROM_INSIDE),
+    type=OneOf(FROM_INSIDE),
     help="Its first hit from a start inside: 0, the exit, or none  [default: zero]",
 )
-@click.option(
-    "--precision",
-    type=click.Choice(list(FORMATS)),
-    default="binary64",
-    show_default=True,
-    help="The numbers that it is asked and answers in.",
-)
+@precision_of("its questions and answers")
 @click.option("--adapter", is_flag=True, help="Begin with an adapter to a library, and its kit.")
 @click.option("--in-process", is_flag=True, help="For python: a function to be called, no pipe.")
 @click.option("--force", is_flag=True, help="Overwrite files that are there.")
@@ -90,9 +90,10 @@ def harness(
             say(f"{key:12}{starter.name:12}{starter.build or starter.run}")
         say(f"{READERS:12}{'C, Node':12}judge answers without raycert; see README.md")
         return
-    if lang is None or lang not in (*STARTERS, READERS):
-        wrong = "no language is given" if lang is None else f"{lang!r} is not a language here"
-        raise click.UsageError(f"{wrong}; there are: {', '.join((*STARTERS, READERS))}")
+    if lang is None:
+        raise click.UsageError(f"no language is given; there are: {', '.join(LANGUAGES)}")
+    if lang not in LANGUAGES:
+        unknown("language", lang, LANGUAGES)
     if from_inside and answers != "first":
         raise click.UsageError("--from-inside is of the first hit: add --answers first")
     wanted = Wanted(answers, from_inside or "zero", precision, adapter)

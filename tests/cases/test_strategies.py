@@ -123,7 +123,7 @@ vary from one environment to the next by more than their number would let expect
 
 @pytest.mark.parametrize("fmt", FORMATS.values(), ids=lambda fmt: fmt.name)
 def test_the_bias_is_real(fmt: Format) -> None:
-    found = shares(public.scenes(fmt=fmt), 450)
+    found = shares(public.scenes(fmt=fmt), 700)
     few = {name: found.get(name, 0) for name in LEAST if found.get(name, 0) < LEAST[name]}
     assert few == {}
 

@@ -21,8 +21,6 @@ from raycert.oracle.commands.options import FILE_OR_DASH, TARGETS
 from shared.small_corpus import write_small
 
 ROOT = Path(__file__).parents[2]
-EXEMPT = {"harness"}
-"""Verbs whose help has another form yet."""
 
 
 def leaves() -> Iterator[tuple[str, click.Command]]:
@@ -55,7 +53,7 @@ def examples() -> Iterator[tuple[str, list[str]]]:
 EXAMPLES = dict(examples())
 
 
-@pytest.mark.parametrize("verb", sorted(LEAVES.keys() - EXEMPT))
+@pytest.mark.parametrize("verb", sorted(LEAVES))
 def test_help_has_an_example_and_ends_with_the_exit_statuses(verb: str) -> None:
     said = CliRunner().invoke(main, [*verb.split(), "--help"]).output
     assert "  Examples:\n" in said
@@ -111,7 +109,7 @@ def form(option: click.Option) -> tuple[object, ...]:
 
 @pytest.mark.parametrize("name", sorted(SHARED))
 def test_an_option_takes_the_same_in_every_verb(name: str) -> None:
-    forms = {form(option): verb for verb, option in SHARED[name] if verb not in EXEMPT}
+    forms = {form(option): verb for verb, option in SHARED[name]}
     if name in PLACE_OR_FOLDER:
         assert {metavar for *_, metavar in forms} <= {"FILE", "DIR"}
     elif name in NARROWER:
