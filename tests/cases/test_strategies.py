@@ -106,15 +106,14 @@ LEAST = {
     "tree": 30,
     "two leaves": 25,
     "radius 0": 2,
-    "no direction": 0.1,
     "lattice": 0.6,
     "small whole numbers": 15,
     "all bits": 3,
 }
 """Percent of all scenes, far less than what 3000 of them show, in this order:
 
-binary64: 53, 2.5, 11, 5.9, 3.4, 12, 22, 71, 68, 13, 3.1, 6.9, 50, 23
-binary32: 56, 3.4, 10, 5.3, 4.8, 12, 21, 73, 71, 10, 3.4, 8.1, 54, 19
+binary64: 53, 2.5, 11, 5.9, 3.4, 12, 22, 71, 68, 13, 6.9, 50, 23
+binary32: 56, 3.4, 10, 5.3, 4.8, 12, 21, 73, 71, 10, 8.1, 54, 19
 
 Draws cluster, and Hypothesis also draws constants that it finds in the modules at hand, so shares
 vary from one environment to the next by more than their number would let expect.
@@ -123,7 +122,7 @@ vary from one environment to the next by more than their number would let expect
 
 @pytest.mark.parametrize("fmt", FORMATS.values(), ids=lambda fmt: fmt.name)
 def test_the_bias_is_real(fmt: Format) -> None:
-    found = shares(public.scenes(fmt=fmt), 700)
+    found = shares(public.scenes(fmt=fmt), 450)
     few = {name: found.get(name, 0) for name in LEAST if found.get(name, 0) < LEAST[name]}
     assert few == {}
 
@@ -144,6 +143,12 @@ def test_rays_reach_every_touch(kind: str) -> None:
 
     once = settings(FINDING, phases=[Phase.generate])
     find(public.scenes(1, ("cylinder",)), touches, settings=once, random=Random(0))
+
+
+def test_rays_without_direction_are_drawn() -> None:
+    """Some 3 %, but in one cluster: of 700 scenes an older Hypothesis draws none."""
+    once = settings(FINDING, phases=[Phase.generate])
+    find(public.rays(), lambda ray: not any(ray.direction), settings=once, random=Random(0))
 
 
 @pytest.mark.parametrize("fmt", FORMATS.values(), ids=lambda fmt: fmt.name)
