@@ -119,8 +119,9 @@ def wrong_directions(every: Iterable[Source]) -> list[str]:
     return [
         f"{source.path}:{line}: imports {name}"
         for source in every
+        for allowed in [_allowed(source)]
         for line, name in imports(source.tree)
-        if name.startswith((".", "tests")) or ours(name)[:1] not in ([], *_allowed(source))
+        if name.startswith((".", "tests")) or ours(name)[:1] not in ([], *allowed)
     ]
 
 

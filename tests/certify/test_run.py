@@ -156,7 +156,8 @@ def test_an_interruption_while_asking_keeps_what_is_known() -> None:
 
         yield advance
 
-    result = conduct(prepare(Plan(GOOD, selection=FEW)), Watch(counting))
+    plan = Plan(GOOD, selection=FEW, limits=Limits(window=8))  # not all answered at one look
+    result = conduct(prepare(plan), Watch(counting))
     assert result.ran.interrupted
     assert len(result.grades) < len(result.prepared.rows)
 

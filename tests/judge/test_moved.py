@@ -128,7 +128,7 @@ def unit(fmt: Format) -> Fraction:
     return Fraction(1, 2**53 if fmt is BINARY64 else 2**24)
 
 
-@settings(max_examples=400)
+@settings(max_examples=200)
 @given(
     leaves,
     rays,
@@ -157,7 +157,7 @@ def test_a_moved_leaf_is_what_its_definition_says(
         assert member(t, moved) == found, t
 
 
-@settings(max_examples=200)
+@settings(max_examples=120)
 @given(solids, rays, st.integers(40, 104), measures, sigmas)
 def test_a_moved_tree_is_what_its_moved_leaves_say(
     solid: Solid, ray: Ray, step: int, measure: str, sigma: int
@@ -193,7 +193,7 @@ def test_a_moved_tree_is_what_its_moved_leaves_say(
             assert member(t, moved) == member_of(solid, t, sigma), t
 
 
-@settings(max_examples=200)
+@settings(max_examples=120)
 @given(solids, rays, steps, steps, formats, measures)
 def test_lists_are_monotone_in_k(
     solid: Solid, ray: Ray, one: int, two: int, fmt: Format, measure: str
