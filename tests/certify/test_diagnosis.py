@@ -79,7 +79,7 @@ def test_of_two_faults_nearly_all_are_named(answers: str) -> None:
 
 @pytest.mark.parametrize("trouble", ["rare", "noise"])
 def test_of_answers_spoilt_at_random_nothing_is_said(trouble: str) -> None:
-    found = score(trouble, 3, rows(8), HELLO)  # type: ignore[arg-type]
+    found = score(trouble, 4, rows(6), HELLO)  # type: ignore[arg-type]
     assert found.failures > 100
     assert (found.other, found.signatures) == (0, 0), found.missed
 

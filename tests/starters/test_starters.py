@@ -369,7 +369,8 @@ def test_a_file_that_is_there_is_not_overwritten(tmp_path: Path) -> None:
 def test_an_unknown_language_gets_the_list(arguments: list[str]) -> None:
     result = CliRunner().invoke(harness, arguments)
     assert result.exit_code == 2
-    assert ", ".join(STARTERS) in result.output
+    listed = result.output.rpartition(":")[2].replace(",", " ").split()
+    assert {*STARTERS, READERS} == set(listed)
 
 
 def test_a_side_belongs_to_the_first_hit() -> None:
