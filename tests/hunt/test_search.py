@@ -7,7 +7,7 @@ import pytest
 from raycert.cases.numbers import numbers
 from raycert.oracle.client.dialogue import Unusable
 from raycert.oracle.client.inprocess import InProcess
-from raycert.oracle.hunt import pursuit
+from raycert.oracle.hunt import pursuit, search
 from raycert.oracle.hunt.executors import Here, Lost, Processes
 from raycert.oracle.hunt.look import UNREPEATED
 from raycert.oracle.hunt.pursuit import work
@@ -86,7 +86,9 @@ def test_a_loss_before_anything_was_tried_is_raised():
         hunt(asked, Budget(cases=10_000, unit=40), Gone(partial(work, asked)))
 
 
-def test_a_loss_keeps_what_waits_for_a_unit_that_will_not_come():
+def test_a_loss_keeps_what_waits_for_a_unit_that_will_not_come(monkeypatch):
+    monkeypatch.setattr(search, "WIND_UP", 600)  # a loaded machine is no loss
+
     class Overtaken(Here):
         """Does unit 1; unit 0 and whatever did it are gone."""
 
