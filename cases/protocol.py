@@ -193,7 +193,10 @@ def read_fields(form: dict[str, Any]) -> Hello:
     """Return the hello of which these are the fields. Raises `BadLine` naming what is wrong."""
     for name in form:
         if name not in Hello.__slots__:
-            raise BadLine(f"hello.{name:.40} is not a field (fields: {', '.join(Hello.__slots__)})")
+            from raycert.cases.hints import near
+
+            meant = near(name, Hello.__slots__) or f"fields: {', '.join(Hello.__slots__)}"
+            raise BadLine(f"hello.{name:.40} is not a field ({meant})")
     if not isinstance(form.get("name"), str) or not form["name"]:
         raise BadLine("hello.name is missing or not a string")
     for name, allowed in CHOICES.items():

@@ -54,19 +54,20 @@ class Declared:
 
 def read_declared(path: Path) -> dict[str, Any]:
     """Return the fields that a file gives; TOML by the suffix .toml. Raises `BadFile`."""
-    if path.suffix == ".toml":
-        return _fields(path, read_toml(path))
-    return read_as(path, read_file(path), lambda form: _fields(path, form))
-
-
-def _fields(path: Path, form: object) -> dict[str, Any]:
-    if not isinstance(form, dict):
-        raise BadFile(f"{path}: is not an object of the fields of a hello")
-    fields = {name: value for name, value in form.items() if name != "hello"}
-    if form.get("hello", VERSION) != VERSION:
-        raise BadFile(f"{path}: hello is not {VERSION}")
+    if path.suffix != ".toml":
+        return read_as(path, read_file(path), _fields)
+    form = read_toml(path)
     try:
-        Hello("x").but(fields)
+        return _fields(form)
     except BadLine as error:
         raise BadFile(f"{path}: {error}") from None
+
+
+def _fields(form: object) -> dict[str, Any]:
+    if not isinstance(form, dict):
+        raise BadLine("is not an object of the fields of a hello")
+    if form.get("hello", VERSION) != VERSION:
+        raise BadLine(f"hello is not {VERSION}")
+    fields = {name: value for name, value in form.items() if name != "hello"}
+    Hello("x").but(fields)
     return fields

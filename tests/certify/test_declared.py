@@ -92,6 +92,7 @@ def test_a_file_overrides_the_hello_field_by_field(name: str) -> None:
         ("a.json", "[]", "is not an object"),
         ("a.json", '{"hello": 2}', "hello is not 1"),
         ("a.json", '{"speed": 1}', "hello.speed is not a field"),
+        ("a.json", '{"domian": {}}', "did you mean domain?"),
         ("a.json", '{"domain": {"size": [2, 1]}}', "hello.domain.size has its low bound above"),
         ("a.toml", "domain = 1\n", "hello.domain is not an object of bounds"),
         ("a.toml", "domain = \n", "is not TOML"),
@@ -104,6 +105,7 @@ def test_a_file_that_is_no_hello_is_refused_before_the_run(name: str, text: str,
     result = run("--hello", name, "reference")
     assert result.exit_code == 2
     assert says in result.output
+    assert result.output.count(name) == 1
 
 
 def test_how_code_answers_is_not_for_a_file_to_say(monkeypatch: pytest.MonkeyPatch) -> None:
